@@ -1,0 +1,1 @@
+"""bsgplan: the planner for block-structured triangular grids."""

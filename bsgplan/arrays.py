@@ -1,0 +1,43 @@
+"""Array aliases, and the one way to make an array read-only."""
+
+from __future__ import annotations
+
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats: TypeAlias = NDArray[np.float64]
+Ints: TypeAlias = NDArray[np.int64]
+Bools: TypeAlias = NDArray[np.bool_]
+
+RELATIVE_TOLERANCE = 1e-12
+"""Two lengths of one mesh that differ by less than this share of its extent are equal: a few hundred
+roundings of double precision, far below any edge that a mesh generator makes."""
+
+
+def frozen_floats(values: Any) -> Floats:
+    """Return values as a read-only array of float64, copied only where needed.
+
+    >>> frozen_floats([1, 2]).flags.writeable
+    False
+    """
+    array = np.ascontiguousarray(values, dtype=np.float64)
+    return _frozen(array, values)
+
+
+def frozen_ints(values: Any) -> Ints:
+    """Return values as a read-only array of int64, copied only where needed.
+
+    >>> frozen_ints([[0, 1, 2]]).shape
+    (1, 3)
+    """
+    array = np.ascontiguousarray(values, dtype=np.int64)
+    return _frozen(array, values)
+
+
+def _frozen(array: NDArray[Any], source: Any) -> NDArray[Any]:
+    if array is source and array.flags.writeable:
+        array = array.view()  # the caller keeps a writable array; ours is a read-only view of it
+    array.flags.writeable = False
+    return array

@@ -1,0 +1,1 @@
+"""The theory of transitions between fronts: no mesh in here."""

@@ -1,0 +1,63 @@
+"""The size field: the wanted edge length at every vertex of a mesh.
+
+Produces a `SizeField` from the mesh's own edges or from values the user names. Invariant: a field read
+off a mesh is calibrated, the triangles it expects are the triangles there are.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from ..arrays import Floats, frozen_floats
+from ..errors import InvalidSize
+from ..mesh import Mesh
+
+EQUILATERAL = np.sqrt(3) / 4
+"""Area of an equilateral triangle of edge 1."""
+
+
+@dataclass(frozen=True, eq=False)
+class SizeField:
+    """Edge length h at each vertex of a mesh; raises InvalidSize unless positive and finite."""
+
+    mesh: Mesh = field(repr=False)
+    """The mesh that carries the field."""
+    h: Floats = field(repr=False)
+    """Edge length, (n_points,), length."""
+    source: str = "edges"
+    """Where the sizes come from: "edges" or the name of an array."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "h", frozen_floats(self.h))
+        if self.h.shape != (self.mesh.n_points,):
+            raise InvalidSize(f"size has shape {self.h.shape}; give one value a point, ({self.mesh.n_points},)")
+        is_bad = ~(np.isfinite(self.h) & (self.h > 0))
+        if is_bad.any():
+            first = int(np.flatnonzero(is_bad)[0])
+            raise InvalidSize(
+                f"size {self.source!r} is {self.h[first]:g} at point {first} ({np.count_nonzero(is_bad)} such points); "
+                "an edge length is positive and finite"
+            )
+
+    @cached_property
+    def log_h(self) -> Floats:
+        """Natural logarithm of h, (n_points,)."""
+        return np.log(self.h)
+
+    @cached_property
+    def triangle_h(self) -> Floats:
+        """Size of each triangle, (n_triangles,), length: the geometric mean of its corners."""
+        return np.exp(self.log_h[self.mesh.triangles].mean(axis=1))
+
+    @cached_property
+    def triangle_weights(self) -> Floats:
+        """Equilateral triangles of size h that cover each triangle, (n_triangles,): A / (sqrt(3)/4 h^2)."""
+        return self.mesh.areas / (EQUILATERAL * self.triangle_h**2)
+
+    @property
+    def expected_triangles(self) -> float:
+        """Number of triangles that the field asks for: integral of dA / (sqrt(3)/4 h^2)."""
+        return float(self.triangle_weights.sum())
