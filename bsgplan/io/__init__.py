@@ -1,0 +1,18 @@
+"""Files: `read` makes a MeshFile, whatever the format; `write_fort14` gives it back to ADCIRC and SCHISM."""
+
+from .boundary import Boundary
+from .file import MeshFile
+from .fort14_write import write_fort14
+from .projection import Projection, looks_like_degrees, project
+from .read import read, read_lonlat
+
+__all__ = [
+    "Boundary",
+    "MeshFile",
+    "Projection",
+    "looks_like_degrees",
+    "project",
+    "read",
+    "read_lonlat",
+    "write_fort14",
+]

@@ -1,0 +1,169 @@
+"""The noun MeshFile: a mesh and everything else its file holds, and the clean-up that makes it.
+
+Invariants: rows of `point_data` are the mesh's points, rows of `cell_data` its triangles, indices of
+`boundaries` its points; whatever was turned, dropped or left out is told in `notes` and `ignored`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..arrays import Floats, Ints, frozen_floats, frozen_ints
+from ..errors import InvalidMesh, MeshReadError
+from ..mesh import Mesh, clean
+from ..mesh.check import is_planar
+from .boundary import Boundary, n_nodes
+
+if TYPE_CHECKING:
+    from .projection import Projection
+
+
+@dataclass(frozen=True, eq=False)
+class RawMesh:
+    """What a reader found, as it stands in the file."""
+
+    points: Floats
+    triangles: Ints
+    quads: Ints
+    point_data: dict[str, Floats] = field(default_factory=dict)
+    cell_data: dict[str, Floats] = field(default_factory=dict)
+    boundaries: tuple[Boundary, ...] = ()
+    ignored: dict[str, int] = field(default_factory=dict)
+    """Cells of other types and how many."""
+    notes: tuple[str, ...] = ()
+    title: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class MeshFile:
+    """A mesh as read from a file, cleaned, with its data, its boundaries and its quads beside it."""
+
+    path: str
+    """The path as it was given."""
+    format: str
+    """Name of the file format: "gmsh", "fort.14", "su2", ..."""
+    mesh: Mesh
+    """The triangles, cleaned."""
+    quads: Ints
+    """Corner indices into `quad_points`, (n_quads, 4); quads are not planned, only measured."""
+    quad_points: Floats
+    """Points of the quads, (n_quad_points, 2 or 3), in the unit of the mesh."""
+    point_data: dict[str, Floats] = field(default_factory=dict)
+    """Values at the points by name, (n_points, ...)."""
+    cell_data: dict[str, Floats] = field(default_factory=dict)
+    """Values at the triangles by name, (n_triangles, ...)."""
+    boundaries: tuple[Boundary, ...] = ()
+    """Open and land segments of ADCIRC and SCHISM, physical groups and markers of others."""
+    ignored: dict[str, int] = field(default_factory=dict)
+    """Cells that are not triangles, by type, and how many; quads among them."""
+    notes: tuple[str, ...] = ()
+    """One sentence for each thing that the clean-up did or left."""
+    title: str = ""
+    """First line of a fort.14 file."""
+    projection: Projection | None = None
+    """The map from degrees to the plane of `mesh`; None where the file's own coordinates are kept."""
+
+    def __repr__(self) -> str:
+        return f"MeshFile({self.path!r}, {self.format}, {self.mesh!r})"
+
+    def description(self) -> dict[str, Any]:
+        """Return what the file holds beside the mesh, as plain data for a JSON document."""
+        return {
+            "path": self.path,
+            "format": self.format,
+            "title": self.title,
+            "ignored": dict(self.ignored),
+            "boundaries": [
+                {"kind": b.kind, "code": b.code, "name": b.name, "n_nodes": b.n_nodes}
+                for b in self.boundaries
+            ],
+            "arrays": {"points": sorted(self.point_data), "cells": sorted(self.cell_data)},
+            "notes": list(self.notes),
+            "projection": None if self.projection is None else self.projection.description(),
+        }
+
+
+def assemble(path: str, format: str, raw: RawMesh, projection: Projection | None = None) -> MeshFile:  # noqa: A002
+    """Return the cleaned MeshFile of what a reader found; data and boundaries follow their points."""
+    if not len(raw.triangles):
+        raise MeshReadError(f"{path}: no triangles, it holds {_contents(raw)}; give a mesh of triangles")
+    try:
+        _check_quads(raw)
+        cleaned = clean(raw.points, raw.triangles)
+        _check_duplicates(cleaned.mesh)
+    except InvalidMesh as error:
+        base = "numbers count from 0" + ("" if _all_used(raw) else ", unused points left out")
+        raise InvalidMesh(f"{path}: {error} ({base})") from None
+    new_index = np.full(len(raw.points), -1, dtype=np.int64)
+    new_index[cleaned.kept_points] = np.arange(len(cleaned.kept_points))
+    boundaries = tuple(boundary.renumbered(new_index) for boundary in raw.boundaries)
+    quad_points, quads = _quads_apart(raw)
+    n_unused = len(raw.points) - len(np.union1d(cleaned.kept_points, raw.quads.ravel()))
+    n_lost = n_nodes(raw.boundaries) - n_nodes(boundaries)
+    n_coincident = _n_coincident(cleaned.mesh.points)
+    told = {
+        f"{cleaned.n_flipped} clockwise triangles turned counter-clockwise": cleaned.n_flipped,
+        f"{n_unused} points of no cell dropped": n_unused,
+        f"{n_lost} boundary entries dropped, their points are in no triangle": n_lost,
+        "constant third coordinate dropped": cleaned.is_flattened,
+        f"{n_coincident} points coincide with another point; they stay apart, none was merged": n_coincident,
+        f"{len(quads)} quads left out of the plan, measured apart": len(quads),
+    }
+    return MeshFile(
+        path=path,
+        format=format,
+        mesh=cleaned.mesh,
+        quads=frozen_ints(quads),
+        quad_points=frozen_floats(quad_points),
+        point_data={name: frozen_floats(v[cleaned.kept_points]) for name, v in raw.point_data.items()},
+        cell_data={name: frozen_floats(v) for name, v in raw.cell_data.items()},
+        boundaries=boundaries,
+        ignored=dict(raw.ignored),
+        notes=(*raw.notes, *(sentence for sentence, happened in told.items() if happened)),
+        title=raw.title,
+        projection=projection,
+    )
+
+
+def _contents(raw: RawMesh) -> str:
+    cells = ", ".join(f"{count} {name} cells" for name, count in raw.ignored.items()) or "no cells"
+    return f"{len(raw.points)} points, {cells}"
+
+
+def _all_used(raw: RawMesh) -> bool:
+    return len(np.unique(raw.triangles)) == len(raw.points)
+
+
+def _check_quads(raw: RawMesh) -> None:
+    is_bad = ((raw.quads < 0) | (raw.quads >= len(raw.points))).any(axis=1)
+    if is_bad.any():
+        first = int(np.flatnonzero(is_bad)[0])
+        raise InvalidMesh(f"quad {first} names a point outside 0 .. {len(raw.points) - 1}; repair the file")
+
+
+def _check_duplicates(mesh: Mesh) -> None:
+    corners = np.sort(mesh.triangles, axis=1)
+    order = np.lexsort(corners.T)
+    is_same = (corners[order][1:] == corners[order][:-1]).all(axis=1)
+    if is_same.any():
+        first = int(np.flatnonzero(is_same)[0])
+        raise InvalidMesh(
+            f"{np.count_nonzero(is_same)} triangles stand in the file twice, the first {order[first]} and "
+            f"{order[first + 1]}; save each triangle once (one physical group each)"
+        )
+
+
+def _quads_apart(raw: RawMesh) -> tuple[Floats, Ints]:
+    used, quads = np.unique(raw.quads, return_inverse=True)
+    points = raw.points[used]
+    if len(used) and points.shape[1] == 3 and is_planar(points):
+        points = points[:, :2]
+    return points, quads.reshape(-1, 4).astype(np.int64)
+
+
+def _n_coincident(points: Floats) -> int:
+    ordered = points[np.lexsort(points.T)]
+    return int(np.count_nonzero((ordered[1:] == ordered[:-1]).all(axis=1)))

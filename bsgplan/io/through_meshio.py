@@ -1,0 +1,178 @@
+"""Every format that meshio reads, made quiet: no prints, no exits, no exception but MeshReadError."""
+
+from __future__ import annotations
+
+import contextlib
+import importlib
+import io
+import re
+import types
+import warnings
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..arrays import Floats, Ints
+from ..errors import BsgplanError, MeshReadError
+from .boundary import Boundary
+from .file import RawMesh
+
+CORNERS = (("triangle", 3), ("quad", 4), ("VTK_LAGRANGE_TRIANGLE", 3), ("VTK_LAGRANGE_QUADRILATERAL", 4))
+"""Cell types, by how their name begins, that are taken by their first corners: higher orders too."""
+HIDDEN_ARRAYS = ("gmsh:dim_tags", "su2:tag")
+"""Book-keeping of a reader, of no use as data."""
+PARTIAL_TAGS = "physical groups or data cover a part of the cells only; those arrays were left out"
+
+
+def read_through_meshio(path: Path, file_format: str) -> RawMesh:
+    """Return what meshio's reader of that format finds in a file."""
+    markers = _su2_markers(path) if file_format == "su2" else {}
+    with (
+        warnings.catch_warnings(),
+        contextlib.redirect_stdout(io.StringIO()),
+        contextlib.redirect_stderr(io.StringIO()),
+    ):
+        warnings.simplefilter("ignore")
+        try:
+            found, notes = _read_gmsh(path) if file_format == "gmsh" else (_read(path, file_format), ())
+            return _converted(found, notes, markers)
+        except BsgplanError:
+            raise
+        except ModuleNotFoundError as error:
+            raise MeshReadError(
+                f"{file_format} files need the package {error.name}; pip install {error.name}"
+            ) from None
+        except (Exception, SystemExit) as error:  # readers raise anything, and exit
+            raise MeshReadError(
+                f"not a {file_format} file that meshio can read ({_reason(error)}); check or convert it"
+            ) from None
+
+
+def _read(path: Path, file_format: str) -> Any:
+    return importlib.import_module(f"meshio.{file_format}").read(str(path))
+
+
+def _read_gmsh(path: Path) -> tuple[Any, tuple[str, ...]]:
+    """Return the mesh of a Gmsh file; never through meshio.read, which tries the Ansys reader first."""
+    import meshio
+
+    try:
+        return meshio.gmsh.read(str(path)), ()
+    except ValueError as error:  # meshio refuses tags or data that only some of the cells carry
+        if "ata" not in str(error):
+            raise
+    from meshio.gmsh import _gmsh41
+    from meshio.gmsh.main import _read_header
+
+    reader = _gmsh41.read_buffer
+    lenient = types.FunctionType(reader.__code__, {**reader.__globals__, "Mesh": _mesh_without_partial_data})
+    with path.open("rb") as stream:
+        while stream.readline().strip() != b"$MeshFormat":
+            pass
+        version, data_size, is_ascii = _read_header(stream)
+        if not version.startswith("4"):
+            raise MeshReadError("data cover a part of the points or cells only; save them for all of them")
+        return lenient(stream, is_ascii, data_size), (PARTIAL_TAGS,)
+
+
+def _mesh_without_partial_data(points: Any, cells: Any, **data: Any) -> Any:
+    import meshio
+
+    data["point_data"] = {n: v for n, v in data["point_data"].items() if len(v) == len(points)}
+    data["cell_data"] = {n: v for n, v in data["cell_data"].items() if len(v) == len(cells)}
+    data["cell_sets"] = None
+    return meshio.Mesh(points, cells, **data)
+
+
+def _converted(found: Any, notes: Iterable[str], markers: dict[int, str]) -> RawMesh:
+    points = np.asarray(found.points, dtype=np.float64)
+    if points.ndim != 2 or points.shape[1] not in (2, 3):
+        raise MeshReadError(f"points have shape {points.shape}, not 2 or 3 coordinates; check the file")
+    corners = [_n_corners(block.type) for block in found.cells]
+    ignored: dict[str, int] = {}
+    for block, n_corners in zip(found.cells, corners, strict=True):
+        if n_corners != 3 and len(block.data):
+            name = "quad" if n_corners == 4 else block.type
+            ignored[name] = ignored.get(name, 0) + len(block.data)
+    cell_data = {
+        name: _floats(np.concatenate([np.asarray(v) for v, n in zip(values, corners, strict=True) if n == 3]))
+        for name, values in found.cell_data.items()
+        if 3 in corners and name not in HIDDEN_ARRAYS
+    }
+    point_data = {name: _floats(v) for name, v in found.point_data.items() if name not in HIDDEN_ARRAYS}
+    return RawMesh(
+        points=points,
+        triangles=_cells(found, corners, 3),
+        quads=_cells(found, corners, 4),
+        point_data={name: values for name, values in point_data.items() if values is not None},
+        cell_data={name: values for name, values in cell_data.items() if values is not None},
+        boundaries=_named_lines(found, markers),
+        ignored=ignored,
+        notes=tuple(notes),
+    )
+
+
+def _n_corners(cell_type: str) -> int:
+    return next((n for start, n in CORNERS if cell_type.startswith(start)), 0)
+
+
+def _cells(found: Any, corners: list[int], n_corners: int) -> Ints:
+    """Return the corners of all blocks of triangles or quads, (n, n_corners), in the order of the file."""
+    blocks = [
+        np.asarray(b.data)[:, :n_corners] for b, n in zip(found.cells, corners, strict=True) if n == n_corners
+    ]
+    return np.concatenate([np.empty((0, n_corners), dtype=np.int64), *blocks]).astype(np.int64)
+
+
+def _floats(values: Any) -> Floats | None:
+    array = np.asarray(values)
+    return array.astype(np.float64) if array.dtype.kind in "fiub" else None
+
+
+def _named_lines(found: Any, markers: dict[int, str]) -> tuple[Boundary, ...]:
+    """Return one boundary for each tag of the line cells: its points, each once, sorted."""
+    groups = {
+        int(pair[0]): name for name, pair in found.field_data.items() if np.size(pair) == 2 and pair[1] == 1
+    }
+    names = markers or groups
+    nodes_of: dict[int, list[Ints]] = {}
+    all_tags = found.cell_data.get("su2:tag") or found.cell_data.get("gmsh:physical") or []
+    for block, tags in zip(found.cells, all_tags, strict=False):
+        if block.type.startswith("line"):
+            for tag in np.unique(tags).tolist():
+                nodes_of.setdefault(int(tag), []).append(
+                    np.asarray(block.data)[np.asarray(tags) == tag, :2].ravel()
+                )
+    return tuple(
+        Boundary("named", np.unique(np.concatenate(nodes)).astype(np.int64), tag, names.get(tag, ""))
+        for tag, nodes in sorted(nodes_of.items())
+        if (np.concatenate(nodes) < len(found.points)).all()
+    )
+
+
+def _su2_markers(path: Path) -> dict[int, str]:
+    """Return the marker names of an SU2 file by the tags that meshio counts up for them.
+
+    Raises MeshReadError where it has several zones, of which meshio would mix the points.
+    """
+    text = path.read_text(encoding="utf-8", errors="replace")
+    zones = re.search(r"^\s*NZONE\s*=\s*(\d+)", text, re.MULTILINE)
+    if zones and int(zones[1]) > 1:
+        raise MeshReadError(
+            f"{zones[1]} zones, each with its own points; save one zone to a file of its own and give that"
+        )
+    names: dict[int, str] = {}
+    tag = 0
+    for name in re.findall(r"^\s*MARKER_TAG\s*=\s*(\S+)", text, re.MULTILINE):
+        tag = int(name) if re.fullmatch(r"[-+]?\d+", name) else tag + 1
+        names[tag] = name
+    return names
+
+
+def _reason(error: BaseException) -> str:
+    text = " ".join(str(error).split())
+    if isinstance(error, SystemExit) or not text:
+        return type(error).__name__
+    return text if len(text) <= 120 else text[:117] + "..."
