@@ -1,0 +1,62 @@
+"""Front positions where fronts differ in length: rounds of dynamic programming over a few offsets a front.
+
+Each round tries nine positions for each front, within windows that keep the order of fronts, and finds the
+choice that is best of all combinations: first the largest smallest quality, then, among those, the
+largest sum over strips. Windows shrink from round to round. Deterministic; never worse than the start.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..arrays import Bools, Floats
+from .frustum import critical_triangles, mean_ratios
+from .pattern import Pattern
+from .shape import Shape
+
+OFFSETS = np.linspace(-1, 1, 9)
+"""Trial positions of a front, in windows; an odd number, so that one of them is to stay."""
+WINDOWS = (0.45, 0.45, 0.3, 0.3, 0.2, 0.12, 0.06, 0.03, 0.015, 0.007)
+"""Half window of each round as a share of the narrower neighbour strip; under half: fronts keep order."""
+
+
+def place(pattern: Pattern, shape: Shape, positions: Floats) -> Floats:
+    """Return front positions with a larger smallest mean ratio, or the given ones, (n_fronts,), length."""
+    for window in WINDOWS:
+        widths = np.diff(positions)
+        reach = np.zeros(len(positions))
+        reach[1:-1] = window * np.minimum(widths[:-1], widths[1:])
+        trials = positions[:, None] + reach[:, None] * OFFSETS
+        chosen = _best_path(_trial_qualities(pattern, shape, trials))
+        positions = trials[np.arange(len(trials)), chosen]
+    positions[0], positions[-1] = 0.0, shape.length
+    return positions
+
+
+def _trial_qualities(pattern: Pattern, shape: Shape, trials: Floats) -> Floats:
+    """Smallest mean ratio of each strip for each pair of trials, (n_layers, n_trials, n_trials)."""
+    table, strip = critical_triangles(pattern)
+    lengths = shape.front_lengths(trials)
+    first, second = lengths[:-1, :, None][strip], lengths[1:, None, :][strip]
+    width = (trials[1:, None, :] - trials[:-1, :, None])[strip]
+    qualities = mean_ratios(table[:, :, None, None], first, second, width, is_closed=pattern.is_closed)
+    starts = np.flatnonzero(np.diff(strip, prepend=-1))
+    return np.minimum.reduceat(qualities, starts, axis=0)
+
+
+def _best_path(qualities: Floats) -> list[int]:
+    """Trial of each front on the path with the largest minimum, then the largest sum, (n_fronts,)."""
+    bottleneck = np.full(qualities.shape[1], np.inf)
+    for strip in qualities:
+        bottleneck = np.minimum(bottleneck[:, None], strip).max(axis=0)
+    allowed: Bools = qualities >= bottleneck.max()
+    gains = np.where(allowed, qualities, -np.inf)
+    total, came_from = np.zeros(qualities.shape[1]), []
+    for gain in gains:
+        sums = total[:, None] + gain
+        came_from.append(sums.argmax(axis=0))
+        total = sums.max(axis=0)
+    path = [int(total.argmax())]
+    for before in reversed(came_from):
+        path.append(int(before[path[-1]]))
+    return path[::-1]
