@@ -86,7 +86,7 @@ class MeshFile:
         }
 
 
-def assemble(path: str, format: str, raw: RawMesh, projection: Projection | None = None) -> MeshFile:  # noqa: A002
+def assemble(path: str, format: str, raw: RawMesh, projection: Projection | None = None) -> MeshFile:
     """Return the cleaned MeshFile of what a reader found; data and boundaries follow their points."""
     if not len(raw.triangles):
         raise MeshReadError(f"{path}: no triangles, it holds {_contents(raw)}; give a mesh of triangles")

@@ -97,8 +97,8 @@ def _header(lines: Sequence[bytes]) -> tuple[int, int]:
         )
     if n_elements + n_nodes > len(lines) - 2:
         raise MeshReadError(
-            f"line 2: {n_elements} elements and {n_nodes} nodes need as many lines, only {len(lines) - 2} follow; "
-            "repair the counts or fetch the whole file"
+            f"line 2: {n_elements} elements and {n_nodes} nodes need as many lines, "
+            f"only {len(lines) - 2} follow; repair the counts or fetch the whole file"
         )
     return n_elements, n_nodes
 
@@ -136,7 +136,7 @@ def _elements(lines: Sequence[bytes], first: int, numbers: NodeNumbers, n_nodes:
     if not is_quad.any():
         return triangles, np.empty((0, 4), dtype=np.int64)
     quad_numbers = line_numbers[is_quad]
-    quad_lines = [lines[where] for where in np.flatnonzero(is_quad)]
+    quad_lines = [lines[where] for where in np.flatnonzero(is_quad).tolist()]
     quad_table = number_table(quad_lines, quad_numbers.tolist(), ELEMENT_COLUMNS, "an element of 4 nodes")
     return triangles, _corners(quad_table[:, 2:], quad_numbers, numbers)
 
@@ -147,8 +147,9 @@ def _corners(named: Floats, line_numbers: Ints, numbers: NodeNumbers) -> Ints:
     if (index < 0).any():
         row, column = np.argwhere(index < 0)[0]
         raise MeshReadError(
-            f"line {line_numbers[row]}: the element names node {ids[row, column]}, which no node line defines "
-            f"(ids {numbers.ids.min()} .. {numbers.ids.max()}); repair the element or the node block"
+            f"line {line_numbers[row]}: the element names node {ids[row, column]}, "
+            f"which no node line defines (ids {numbers.ids.min()} .. {numbers.ids.max()}); "
+            "repair the element or the node block"
         )
     return index
 

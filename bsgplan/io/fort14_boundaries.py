@@ -7,7 +7,7 @@ from itertools import takewhile
 
 import numpy as np
 
-from ..arrays import Ints
+from ..arrays import Floats, Ints
 from ..errors import MeshReadError
 from .boundary import Boundary, Kind
 from .number_table import FORTRAN_EXPONENT, shown
@@ -80,13 +80,14 @@ def _row(number: int, line: bytes, n_columns: int) -> list[float]:
     return values
 
 
-def _indices(named: np.ndarray, rows: Sequence[tuple[int, bytes]], index: Callable[[Ints], Ints]) -> Ints:  # type: ignore[type-arg]
+def _indices(named: Floats, rows: Sequence[tuple[int, bytes]], index: Callable[[Ints], Ints]) -> Ints:
     is_whole = (named == np.rint(named)) & (np.abs(named) <= 2**53)
     found = np.where(is_whole, index(np.where(is_whole, named, 0).astype(np.int64)), -1)
     if (found < 0).any():
         where = int(np.flatnonzero(found < 0)[0])
         raise MeshReadError(
-            f"line {rows[where][0]}: the boundary names node {named[where]:g}, which is not in the file; {REMEDY}"
+            f"line {rows[where][0]}: the boundary names node {named[where]:g}, "
+            f"which is not in the file; {REMEDY}"
         )
     return found
 

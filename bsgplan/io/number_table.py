@@ -1,4 +1,4 @@
-"""Rows of numbers in a text file, read fast where they are clean and with a line number where they are not."""
+"""Rows of numbers in a text file: read fast where clean, with a line number where not."""
 
 from __future__ import annotations
 

@@ -48,8 +48,8 @@ class Projection:
         if is_bad.any():
             first = degrees[np.flatnonzero(is_bad)[0]]
             raise InvalidMesh(
-                f"the point {first[0]:g} {first[1]:g} lies opposite the domain's centre and has no place in the plane; "
-                "plan a part of the globe"
+                f"the point {first[0]:g} {first[1]:g} lies opposite the domain's centre "
+                "and has no place in the plane; plan a part of the globe"
             )
         return plane
 
@@ -129,7 +129,7 @@ def looks_like_degrees(mesh_file: MeshFile) -> bool:
     if mesh_file.projection is not None or mesh_file.format not in OCEAN_FORMATS:
         return False
     west, east, south, north = mesh_file.mesh.bounds[:4]
-    is_inside = -180 <= west and east <= 360 and -90 <= south and north <= 90
+    is_inside = west >= -180 and east <= 360 and south >= -90 and north <= 90
     return is_inside and max(east - west, north - south) > SMALLEST_DEGREES
 
 

@@ -58,10 +58,10 @@ SUFFIXES = {
     ".su2": "su2", ".mesh": "medit", ".meshb": "medit", ".vtk": "vtk", ".vtu": "vtu", ".off": "off",
     ".obj": "obj", ".stl": "stl", ".ply": "ply", ".inp": "abaqus", ".avs": "avsucd", ".bdf": "nastran",
     ".nas": "nastran", ".fem": "nastran", ".dat": "tecplot", ".tec": "tecplot", ".vol": "netgen",
-    ".xml": "dolfin", ".xdmf": "xdmf", ".xmf": "xdmf", ".mdpa": "mdpa", ".post": "permas", ".f3grid": "flac3d",
-    ".wkt": "wkt", ".med": "med", ".h5m": "h5m", ".cgns": "cgns", ".e": "exodus", ".exo": "exodus",
-    ".ex2": "exodus", ".ugrid": "ugrid", ".2dm": "SMS 2dm", ".node": "Triangle .node/.ele",
-    ".ele": "Triangle .node/.ele", ".nc": "netCDF", ".slf": "Selafin", ".vtp": "VTK PolyData",
+    ".xml": "dolfin", ".xdmf": "xdmf", ".xmf": "xdmf", ".mdpa": "mdpa", ".post": "permas",
+    ".f3grid": "flac3d", ".wkt": "wkt", ".med": "med", ".h5m": "h5m", ".cgns": "cgns",
+    ".e": "exodus", ".exo": "exodus", ".ex2": "exodus", ".ugrid": "ugrid", ".2dm": "SMS 2dm",
+    ".node": "Triangle .node/.ele", ".ele": "Triangle .node/.ele", ".nc": "netCDF", ".slf": "Selafin", ".vtp": "VTK PolyData",
 }  # fmt: skip
 """Format by suffix, for files whose first bytes do not tell."""
 
@@ -89,7 +89,8 @@ def sniff(path: Path) -> str:
     found = format_of(head, path.name)
     if found is None:
         raise MeshReadError(
-            f"{path}: format not recognised, neither by content nor by suffix; convert it to Gmsh, VTK or fort.14"
+            f"{path}: format not recognised, neither by content nor by suffix; "
+            "convert it to Gmsh, VTK or fort.14"
         )
     if found in OTHER_FORMATS:
         raise MeshReadError(f"{path}: {found} files are not read yet; {OTHER_FORMATS[found]}")
@@ -97,9 +98,9 @@ def sniff(path: Path) -> str:
 
 
 def format_of(head: bytes, name: str) -> str | None:
-    """Return the format that the first bytes give away, else the one of the suffix, else None.
+    r"""Return the format that the first bytes give away, else the one of the suffix, else None.
 
-    >>> format_of(b"OFF\\n3 1 0\\n", "surface.msh")
+    >>> format_of(b"OFF\n3 1 0\n", "surface.msh")
     'off'
     """
     by_suffix = SUFFIXES.get(Path(name.lower()).suffix)
