@@ -1,0 +1,202 @@
+"""Front counts of a transition region, measured without drawing a contour.
+
+Produces a `Profile`: elements f on the front at depth T (in layers of elements) between the fine and the
+coarse end. By the co-area formula, per bin of log size u: f = sum(A |grad u| / h) / du, and the layers in
+the bin are dT = sum(A / (sqrt(3)/2 h^2)) / f. Each triangle is spread over the levels it really spans.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..arrays import Floats, Ints, frozen_floats
+from ..mesh.operators import gradient
+from ..sizing import SizeField
+
+SAMPLES = 4
+"""Levels by which the span of one triangle is represented: the share of its area below a level is then
+right to an eighth of the triangle."""
+
+TRIANGLES_PER_BIN = 24
+"""A bin holds at least so many triangles (about 30 % noise each, 6 % in the mean), and 1.5 blocks."""
+
+MOST_BINS = 48
+"""More bins than this add noise and no shape: patterns have fewer fronts."""
+
+
+LEAST_SPAN = 1e-9
+"""A region of one size is given this span of log size, so that its bins are not empty."""
+
+MOST_TREND = 0.3
+"""The length of a front is continued to the end of its region by a factor of e^0.3 at most."""
+
+
+NEARLY_FULL = 0.8
+"""A front with this share of the highest count ends the ragged part of a fine end."""
+
+
+@dataclass(frozen=True, eq=False)
+class Profile:
+    """Front counts of one region from its fine end (depth 0) to its coarse end (depth `layers`)."""
+
+    depths: Floats
+    """Depth of each station in layers of elements, (n,), increasing from 0."""
+    counts: Floats
+    """Elements on the front through each station, (n,)."""
+    lengths: Floats
+    """Length of that front, (n,), length."""
+    positions: Floats
+    """Distance of that front from the fine end, (n,), length."""
+
+    def __post_init__(self) -> None:
+        for name in ("depths", "counts", "lengths", "positions"):
+            object.__setattr__(self, name, frozen_floats(getattr(self, name)))
+
+    @property
+    def layers(self) -> float:
+        """Layers of elements from the fine to the coarse front."""
+        return float(self.depths[-1])
+
+    @property
+    def fronts(self) -> float:
+        """Fronts of elements: one more than layers."""
+        return self.layers + 1
+
+    @property
+    def fine_elements(self) -> float:
+        """Elements on the fine front."""
+        return float(self.counts[0])
+
+    @property
+    def coarse_elements(self) -> float:
+        """Elements on the coarse front."""
+        return float(self.counts[-1])
+
+    def counts_at(self, depths: Floats) -> Floats:
+        """Return elements on the fronts at these depths, (n,), linear between stations."""
+        return np.interp(depths, self.depths, self.counts)
+
+
+def profiles(size: SizeField, label: Ints, *, tris_per_block: int = 16) -> list[Profile]:
+    """Return the profile of each label, fine end first; label is one integer a triangle, 0 to n - 1."""
+    least = max(TRIANGLES_PER_BIN, 1.5 * tris_per_block)
+    edges, first = _bin_edges(size, label, least)
+    bin_of = _bins_of_samples(size, label, edges, first).ravel()
+    slope = np.linalg.norm(gradient(size.mesh, size.log_h), axis=1) * size.mesh.areas
+    weight, front, length = (
+        np.bincount(bin_of, np.repeat(value / SAMPLES, SAMPLES), int(first[-1]))
+        for value in (size.triangle_weights, slope / size.triangle_h, slope)
+    )
+    result = []
+    for k in range(len(first) - 1):
+        inside = slice(first[k], first[k + 1])
+        own_edges = edges[first[k] + k : first[k + 1] + k + 1]
+        result.append(_profile(own_edges, weight[inside], front[inside], length[inside]))
+    return result
+
+
+def _profile(edges: Floats, weight: Floats, front: Floats, length: Floats) -> Profile:
+    """Return the profile of one region from the sums over its bins of log size.
+
+    The sums are integrals over a bin: weight of triangles, front of f du, length of L du. Noise smears the
+    two ends of a region over levels that hardly occur; such an end bin is shortened until its front is as
+    long as the fronts beside it, which keeps its sums.
+    """
+    edges, lengths = edges.copy(), length / np.diff(edges)
+    ends = np.empty(2)
+    for side, inner in ((0, slice(1, 4)), (-1, slice(-4, -1))):
+        ends[side] = _end_length(edges, lengths, side, inner)
+        if lengths[side] < ends[side]:
+            kept = length[side] / ends[side]
+            edges[side] = edges[1] - kept if side == 0 else edges[-2] + kept
+    step = np.diff(edges)
+    weight, counts, lengths = _absorb_ragged_end(weight, front / step, length / step)
+    layers = weight / (2 * counts)
+    h = lengths / counts
+    ends[0] = max(ends[0], lengths[0])
+    end_counts = ends / np.exp(edges[[0, -1]])
+    if len(counts) < len(step):  # the fine end was ragged: its front is the first full one
+        ends[0], end_counts[0] = lengths[0], counts[0]
+    return Profile(
+        depths=_stations(layers),
+        counts=np.concatenate([end_counts[:1], counts, end_counts[1:]]),
+        lengths=np.concatenate([ends[:1], lengths, ends[1:]]),
+        positions=_stations(layers * h * np.sqrt(3) / 2),
+    )
+
+
+def _absorb_ragged_end(weight: Floats, counts: Floats, lengths: Floats) -> tuple[Floats, Floats, Floats]:
+    """Return the bins with a ragged fine end drawn into the first full front.
+
+    Along a coast the finest size varies, so the lowest contours are short pieces and the counts first rise.
+    Those triangles lie along the fine front and not before it: they become part of the first layer whose
+    count comes near the highest, if they then take up no more than a third of all layers.
+    """
+    full = int(np.argmax(counts >= NEARLY_FULL * counts.max()))
+    drawn = weight[: full + 1].sum() / (2 * counts[full])
+    rest = (weight[full + 1 :] / (2 * counts[full + 1 :])).sum()
+    if full == 0 or drawn > (drawn + rest) / 3:
+        return weight, counts, lengths
+    weight = np.concatenate([[weight[: full + 1].sum()], weight[full + 1 :]])
+    return weight, counts[full:], lengths[full:]
+
+
+def _end_length(edges: Floats, lengths: Floats, side: int, inner: slice) -> float:
+    """Return the length of the front at one end, continued from the bins beside it in log length."""
+    if len(lengths) < 4:
+        return float(lengths.max())
+    middle = ((edges[1:] + edges[:-1]) / 2)[inner]
+    logs = np.log(np.maximum(lengths[inner], 1e-12 * lengths.max()))
+    trend = np.polyfit(middle - middle.mean(), logs, 1)[0]
+    reach = edges[1] if side == 0 else edges[-2]
+    trend = np.clip(trend * (reach - middle.mean()), -MOST_TREND, MOST_TREND)
+    return float(np.exp(logs.mean() + trend))
+
+
+def _stations(thickness: Floats) -> Floats:
+    ends = np.cumsum(thickness)
+    return np.concatenate([[0.0], ends - thickness / 2, ends[-1:]])
+
+
+def _bin_edges(size: SizeField, label: Ints, least: float) -> tuple[Floats, Ints]:
+    """Return the bin edges of all regions in one array, and the first bin of each region, (n_labels + 1,)."""
+    n_labels = int(label.max()) + 1
+    log_h = size.log_h[size.mesh.triangles]
+    middle = log_h.mean(axis=1)
+    order = np.lexsort((middle, label))
+    weight = size.triangle_weights[order]
+    total = np.bincount(label, size.triangle_weights, n_labels)
+    n_bins = np.clip(total / least, 1, MOST_BINS).astype(np.int64)
+    low, high = np.full(n_labels, np.inf), np.full(n_labels, -np.inf)
+    np.minimum.at(low, label, log_h.min(axis=1))
+    np.maximum.at(high, label, log_h.max(axis=1))
+    high = np.maximum(high, low + LEAST_SPAN)
+    start = np.concatenate([[0], np.cumsum(np.bincount(label, minlength=n_labels))])
+    edges = []
+    for k in range(n_labels):
+        own = slice(start[k], start[k + 1])
+        share = np.cumsum(weight[own]) - weight[own] / 2
+        inner = np.interp(np.arange(1, n_bins[k]) * total[k] / n_bins[k], share, middle[order[own]])
+        ladder = np.linspace(low[k], high[k], n_bins[k] + 1)  # keeps the edges apart where all sizes are equal
+        edges.append(0.999 * np.concatenate([low[k : k + 1], inner, high[k : k + 1]]) + 0.001 * ladder)
+    return np.concatenate(edges), np.concatenate([[0], np.cumsum(n_bins)])
+
+
+def _bins_of_samples(size: SizeField, label: Ints, edges: Floats, first: Ints) -> Ints:
+    """Return the bin of each sample level of each triangle, (n_triangles, SAMPLES)."""
+    corners = np.sort(size.log_h[size.mesh.triangles], axis=1)
+    low, middle, high = corners[:, :1], corners[:, 1:2], corners[:, 2:]
+    share = (np.arange(SAMPLES) + 0.5) / SAMPLES
+    below = low + np.sqrt(share * (middle - low) * (high - low))
+    above = high - np.sqrt((1 - share) * (high - middle) * (high - low))
+    levels = np.where(share * (high - low) <= middle - low, below, above)
+    bottom, top = edges[first[:-1] + np.arange(len(first) - 1)], edges[first[1:] + np.arange(len(first) - 1)]
+    span = top - bottom
+    owner = np.repeat(np.arange(len(first) - 1), np.diff(first) + 1)
+    ladder = 2 * owner + (edges - bottom[owner]) / span[owner]  # one increasing sequence for all regions
+    where = 2 * label[:, None] + (levels - bottom[label, None]) / span[label, None]
+    found = np.searchsorted(ladder, where, side="right") - 1 - label[:, None]
+    result: Ints = np.clip(found, first[label][:, None], first[label + 1][:, None] - 1)
+    return result

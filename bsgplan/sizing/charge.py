@@ -1,0 +1,49 @@
+"""The irregularity budget of a size field: the charge that its curvature demands, before any block is laid.
+
+sum of iota over the interior vertices of D = -(3/pi) * flux of grad(log h) out of D: Gauss-Bonnet in the
+metric h^-2 |dx|^2 ([Bunin], "A continuum theory for unstructured mesh generation in two dimensions"), whose
+discrete form is Eq. 16 of [Zint & Grosso]. Unchanged under h -> c h, so a block layout has the budget of
+its refinement. The gradient is averaged over a few local sizes first; it is continuous across edges, so the
+charges of regions add up to that of the domain.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..arrays import Floats, Ints
+from ..mesh.operators import gradient
+from .field import SizeField
+from .smoothing import smooth_gradient
+
+REACH = 3.0
+"""Smoothing length of the gradient in local sizes: the noise of one region is then 0.05 to 0.1 charges."""
+
+NOISE = 0.1
+"""Noise floor of the charge of a region at least five sizes wide, in units of iota."""
+
+
+def edge_fluxes(size: SizeField, *, reach: float = REACH) -> Floats:
+    """Return the charge that flows through corner edges outwards, (n_triangles, 3), in units of iota.
+
+    Column i belongs to the edge from corner i to corner i + 1, -(3/pi) g . n times its length; the two
+    triangles of an edge have opposite values.
+    """
+    mesh = size.mesh
+    slope = smooth_gradient(mesh, gradient(mesh, size.log_h), reach * size.triangle_h)
+    start, end = mesh.triangles, np.roll(mesh.triangles, -1, axis=1)
+    along = mesh.points[end] - mesh.points[start]
+    if mesh.is_planar:
+        outward = np.stack([along[..., 1], -along[..., 0]], axis=-1)
+    else:
+        a, b, c = mesh.points[mesh.triangles].swapaxes(0, 1)
+        normal = np.cross(b - a, c - a)
+        normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+        outward = np.cross(along, normal[:, None, :])
+    flux = np.einsum("tci,tci->tc", outward, (slope[start] + slope[end]) / 2)
+    return np.asarray(-3 / np.pi * flux)
+
+
+def region_charges(label: Ints, fluxes: Floats) -> Floats:
+    """Return the charge inside each region, (n_regions,), from `edge_fluxes`; label from 0, one a triangle."""
+    return np.bincount(label, fluxes.sum(axis=1))
