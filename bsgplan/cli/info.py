@@ -36,10 +36,9 @@ def info(
     """
     from ..report import mesh_report
 
-    document = {"schema": SCHEMA, "mesh": describe(open_mesh(file, is_lonlat=lonlat))}
-    sys.stdout.write(
-        (_dumps(document) if json else mesh_report.text(mesh_report.rows(document["mesh"]))) + "\n"
-    )
+    mesh = describe(open_mesh(file, is_lonlat=lonlat))
+    text = _dumps({"schema": SCHEMA, "mesh": mesh}) if json else mesh_report.text(mesh_report.rows(mesh))
+    sys.stdout.write(text + "\n")
 
 
 def open_mesh(file: Path, *, is_lonlat: bool) -> MeshFile:

@@ -60,6 +60,8 @@ class Projection:
 
     def scale(self, points: Floats) -> Floats:
         """Return plane metres per true metre at points of the plane, (n,), dimensionless."""
+        if not len(points):
+            return np.empty(0)
         longitude, latitude = self._map(points[:, 0], points[:, 1], inverse=True)
         return np.asarray(self._map.get_factors(longitude, latitude).meridional_scale, dtype=np.float64)
 

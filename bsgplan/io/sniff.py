@@ -61,7 +61,8 @@ SUFFIXES = {
     ".xml": "dolfin", ".xdmf": "xdmf", ".xmf": "xdmf", ".mdpa": "mdpa", ".post": "permas",
     ".f3grid": "flac3d", ".wkt": "wkt", ".med": "med", ".h5m": "h5m", ".cgns": "cgns",
     ".e": "exodus", ".exo": "exodus", ".ex2": "exodus", ".ugrid": "ugrid", ".2dm": "SMS 2dm",
-    ".node": "Triangle .node/.ele", ".ele": "Triangle .node/.ele", ".nc": "netCDF", ".slf": "Selafin", ".vtp": "VTK PolyData",
+    ".node": "Triangle .node/.ele", ".ele": "Triangle .node/.ele", ".nc": "netCDF",
+    ".slf": "Selafin", ".vtp": "VTK PolyData",
 }  # fmt: skip
 """Format by suffix, for files whose first bytes do not tell."""
 

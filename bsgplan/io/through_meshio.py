@@ -46,7 +46,7 @@ def read_through_meshio(path: Path, file_format: str) -> RawMesh:
             ) from None
         except (Exception, SystemExit) as error:  # readers raise anything, and exit
             raise MeshReadError(
-                f"not a {file_format} file that meshio can read ({_reason(error)}); check or convert it"
+                f"not readable as {file_format} ({_reason(error)}); check or convert it"
             ) from None
 
 
