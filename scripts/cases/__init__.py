@@ -1,0 +1,1 @@
+"""The shapes and size functions of the cases, one small file per kind of domain."""
