@@ -56,10 +56,12 @@ def best_spacing(pattern: Pattern, shape: Shape) -> Spacing:
     if shape.is_straight:
         widths = shape.height * straight_widths(pattern, shape.length / shape.height)
         return spacing_at(pattern, shape, _positions(widths, shape.length))
+    straight = straight_widths(pattern, shape.length / shape.height)
     starts = [
         uniform_spacing(pattern, shape),
         paper_spacing(pattern, shape),
         _proportional(pattern, shape, np.add),
+        spacing_at(pattern, shape, _positions(straight, shape.length)),
     ]
     start = max(starts, key=lambda spacing: spacing.q_min)
     placed = spacing_at(pattern, shape, place(pattern, shape, start.positions))
@@ -98,8 +100,9 @@ def straight_widths(pattern: Pattern, length: float) -> Floats:
     >>> straight_widths(Pattern.parse("4:2:1"), 0.75).round(3).tolist()
     [0.25, 0.5]
     """
-    forms = np.stack([strip_form(m, n) for m, n in pattern.strips])
-    widths, qualities = np.array([best_width(m, n) for m, n in pattern.strips]).T
+    closed, strips = pattern.is_closed, pattern.strips
+    forms = np.stack([strip_form(m, n, is_closed=closed) for m, n in strips])
+    widths, qualities = np.array([best_width(m, n, is_closed=closed) for m, n in strips]).T
     reached = float(form_quality(forms, widths * (length / widths.sum())).min())
     missed = float(qualities.min())
     if _is_reached(forms, missed, length):
