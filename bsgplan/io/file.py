@@ -105,12 +105,12 @@ def assemble(path: str, format: str, raw: RawMesh, projection: Projection | None
     n_lost = n_nodes(raw.boundaries) - n_nodes(boundaries)
     n_coincident = _n_coincident(cleaned.mesh.points)
     told = {
-        f"{cleaned.n_flipped} clockwise triangles turned counter-clockwise": cleaned.n_flipped,
-        f"{n_unused} points of no cell dropped": n_unused,
+        f"{cleaned.n_flipped} clockwise triangle{_s(cleaned.n_flipped)} turned counter-clockwise": cleaned.n_flipped,
+        f"{n_unused} point{_s(n_unused)} of no cell dropped": n_unused,
         f"{n_lost} boundary entries dropped, their points are in no triangle": n_lost,
         "constant third coordinate dropped": cleaned.is_flattened,
         f"{n_coincident} points coincide with another point; they stay apart, none was merged": n_coincident,
-        f"{len(quads)} quads left out of the plan, measured apart": len(quads),
+        f"{len(quads)} quad{_s(len(quads))} left out of the plan, measured apart": len(quads),
     }
     return MeshFile(
         path=path,
@@ -167,3 +167,7 @@ def _quads_apart(raw: RawMesh) -> tuple[Floats, Ints]:
 def _n_coincident(points: Floats) -> int:
     ordered = points[np.lexsort(points.T)]
     return int(np.count_nonzero((ordered[1:] == ordered[:-1]).all(axis=1)))
+
+
+def _s(count: int) -> str:
+    return "" if count == 1 else "s"

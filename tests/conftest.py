@@ -1,0 +1,33 @@
+"""Fixtures of the whole test tree."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, settings
+
+settings.register_profile(
+    "house",
+    deadline=None,
+    max_examples=60,
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
+)
+settings.load_profile("house")
+
+SHARED = Path(os.environ.get("BSGPLAN_SHARED", Path(__file__).parents[2] / "shared"))
+
+
+@pytest.fixture(scope="session")
+def shared() -> Path:
+    """The folder of real meshes, beside the checkout or where BSGPLAN_SHARED says; skips where absent."""
+    if not (SHARED / "meshes").is_dir():
+        pytest.skip(f"no real meshes in {SHARED}; set BSGPLAN_SHARED")
+    return SHARED
+
+
+@pytest.fixture(scope="session")
+def meshes(shared: Path) -> Path:
+    """The real meshes and MEASURED.tsv."""
+    return shared / "meshes"
