@@ -19,11 +19,11 @@ OFFSETS = np.linspace(-1, 1, 9)
 WIDEST = 0.45
 """Half window of the first round as a share of the narrower neighbour strip; under half keeps the order."""
 NARROWEST = 0.005
-"""Half window of the last round: q_min is then within 0.001 of a local optimum."""
+"""Half window below which rounds end: offsets of under a hundredth of a strip change no plan."""
 GAIN = 0.005
 """A round that gains less than this share of q_min halves the window."""
 ROUNDS = 24
-"""Rounds at most; about ten are used."""
+"""Rounds at most, where gains are small but steady."""
 
 
 def place(pattern: Pattern, shape: Shape, positions: Floats) -> Floats:

@@ -15,7 +15,7 @@ from ..errors import InvalidOption
 
 STRAIGHT_RATIO = 1.1
 """An open region whose longest front is under this multiple of its shortest counts as a rectangle: the
-fronts of measured regions wobble by that much, and q of a strip changes by less than 0.01."""
+fronts of measured regions wobble by that much, and no front is then 5 % off the mean length or much more."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,7 +19,7 @@ from .shape import Shape
 from .width import best_width, form_quality, strip_form, width_intervals
 
 FIXED_POINT_ROUNDS = 20
-"""Rounds of widths from front lengths from widths: a straight region needs one, a disc about six."""
+"""Rounds at most of widths from front lengths from widths; a straight region needs two."""
 
 
 @dataclass(frozen=True, eq=False)

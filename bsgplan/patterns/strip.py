@@ -92,11 +92,11 @@ def strip_table(m: int, n: int, *, is_closed: bool = False) -> Floats:
 
 @lru_cache(maxsize=4096)
 def critical_table(m: int, n: int, *, is_closed: bool = False) -> Floats:
-    """Return the columns of the strip table among which the worst triangle always is, (4, n_critical).
+    """Return the columns of the strip table among which to look for the worst triangle, (4, n_critical).
 
     Open: on each front, the offset of apex from midpoint is linear in the table for whatever lengths of
-    the two fronts, so its extremes are on the convex hull of (midpoint, apex). Closed: the triangles with
-    the smallest and the largest turn of apex against midpoint.
+    the two fronts, so its extremes are on the convex hull of (midpoint, apex): exact. Closed: the triangles
+    with the smallest and the largest turn of apex against midpoint: exact in a planar annulus.
 
     >>> critical_table(12, 11).shape, strip_table(12, 11).shape
     ((4, 4), (4, 23))

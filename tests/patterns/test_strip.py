@@ -142,3 +142,14 @@ def test_the_worst_triangle_is_critical_for_any_lengths(m, n, first, second, wid
     critical = mean_ratios(critical_table(m, n), *sizes, is_closed=False)
     assert critical.min() == pytest.approx(every.min(), rel=1e-9)
     assert critical_table(m, n).shape[1] <= m + n
+
+
+@given(RING, RING, st.floats(1, 5), st.floats(1.01, 4))
+def test_the_worst_triangle_of_a_planar_annulus_is_critical(m, n, first, ratio):
+    second = first * ratio
+    for sizes in ((first, second), (second, first)):
+        lengths = [np.array(2 * np.pi * size) for size in sizes]
+        width = np.array(second - first)
+        every = mean_ratios(strip_table(m, n, is_closed=True), *lengths, width, is_closed=True)
+        critical = mean_ratios(critical_table(m, n, is_closed=True), *lengths, width, is_closed=True)
+        assert critical.min() == pytest.approx(every.min(), rel=1e-9, abs=1e-9)
