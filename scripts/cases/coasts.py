@@ -54,7 +54,7 @@ def shoreline(
     path: Path,
     *,
     reach: float = 175_000.0,
-    fine: float = 1_050.0,
+    fine: float = 1_000.0,
     growth: float = 0.1,
     coarse: float = 14_000.0,
 ) -> float:

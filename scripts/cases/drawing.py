@@ -97,9 +97,7 @@ def write(
     gmsh.model.addPhysicalGroup(2, surfaces, name="domain")
     for curve, n_edges in (edges_per_curve or {}).items():
         gmsh.model.mesh.setTransfiniteCurve(curve, n_edges + 1)
-    gmsh.model.mesh.setSizeCallback(lambda _dim, _tag, x, y, _z, _h: size(x, y))
-    gmsh.model.mesh.generate(2)
-    gmsh.model.mesh.removeSizeCallback()
+    generate_calibrated(surfaces, size)
     gmsh.option.setNumber("Mesh.MshFileVersion", version)
     gmsh.write(str(path))
     tags, points = mesh_points()
@@ -108,10 +106,35 @@ def write(
         values = np.array([size(x, y) for x, y in points])
         gmsh.view.addHomogeneousModelData(view, 0, "case", "NodeData", tags, values)
         gmsh.view.write(view, str(path), append=True)
-    corners = points[np.searchsorted(tags, gmsh.model.mesh.getElementsByType(2)[1].reshape(-1, 3))]
+    return sum(asked_and_got(tag, size)[0] for tag in surfaces)
+
+
+def generate_calibrated(surfaces: Sequence[int], size: Size, *, n_passes: int = 3) -> None:
+    """Mesh to a multiple of the size such that each surface gets the number of triangles the size asks for.
+
+    gmsh makes edges 3 to 7 % shorter than asked; the multiple, one a surface, makes up for it.
+    """
+    factors = dict.fromkeys(surfaces, 1.0)
+    for _ in range(n_passes):
+        gmsh.model.mesh.clear()
+        gmsh.model.mesh.setSizeCallback(
+            lambda dim, tag, x, y, _z, _h: size(x, y) * (factors[tag] if dim == 2 else 1.0)
+        )
+        gmsh.model.mesh.generate(2)
+        gmsh.model.mesh.removeSizeCallback()
+        for tag in surfaces:
+            asked, got = asked_and_got(tag, size)
+            factors[tag] *= float(np.sqrt(got / asked))
+
+
+def asked_and_got(tag: int, size: Size) -> tuple[float, int]:
+    """Return the triangles asked for on a surface, sum of A / (sqrt(3)/4 h**2), and those it got."""
+    tags, points = mesh_points()
+    nodes = gmsh.model.mesh.getElementsByType(2, tag)[1].reshape(-1, 3)
+    corners = points[np.searchsorted(tags, nodes)]
     (x1, y1), (x2, y2) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
     h = np.array([size(x, y) for x, y in corners.mean(axis=1)])
-    return float((np.abs(x1 * y2 - x2 * y1) / 2 / (np.sqrt(3) / 4 * h**2)).sum())
+    return float((np.abs(x1 * y2 - x2 * y1) / 2 / (np.sqrt(3) / 4 * h**2)).sum()), len(corners)
 
 
 def mesh_points() -> tuple[NDArray[np.uint64], Floats]:
