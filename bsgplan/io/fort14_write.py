@@ -56,7 +56,7 @@ def _lines(mesh_file: MeshFile) -> Iterator[str]:
     mesh = mesh_file.mesh
     points = mesh.points if mesh_file.projection is None else mesh_file.projection.to_degrees(mesh.points)
     depth = _depth(mesh_file)
-    yield " ".join(mesh_file.title.split()) or "mesh"
+    yield " ".join(mesh_file.title.splitlines()) or "mesh"
     yield f"{mesh.n_triangles} {mesh.n_points}"
     for i, ((x, y), z) in enumerate(zip(points.tolist(), depth.tolist(), strict=True), 1):
         yield f"{i} {x!r} {y!r} {z!r}"

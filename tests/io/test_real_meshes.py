@@ -1,0 +1,136 @@
+"""Every file in ../shared/meshes: it agrees with an independent measurement, or fails in one line."""
+
+from __future__ import annotations
+
+import csv
+import re
+
+import meshio
+import numpy as np
+import pytest
+from conftest import SHARED
+from predicates import assert_identity_holds, assert_is_mesh_file
+
+from bsgplan.cli import main
+from bsgplan.cli.info import describe
+from bsgplan.errors import BsgplanError
+from bsgplan.io import read
+
+FOLDER = SHARED / "meshes"
+NOT_READ_YET = (".2dm", ".node", ".ele", ".nc")
+NOT_READ_NAMES = ("jigsaw_piece.msh",)
+
+
+def measured() -> list[dict[str, str]]:
+    """Return the rows of MEASURED.tsv that have triangles, empty where the meshes are absent."""
+    if not (FOLDER / "MEASURED.tsv").exists():
+        return []
+    lines = (line for line in (FOLDER / "MEASURED.tsv").read_text().splitlines() if not line.startswith("#"))
+    return [
+        row
+        for row in csv.DictReader(lines, delimiter="\t")
+        if re.match(r"\d", row["vertices/triangles (quads)"])
+    ]
+
+
+def is_read(name: str) -> bool:
+    return not name.endswith(NOT_READ_YET) and name not in NOT_READ_NAMES
+
+
+READ = [row for row in measured() if is_read(row["name"])]
+FILES = sorted(p for p in FOLDER.rglob("*") if p.is_file()) if FOLDER.is_dir() else []
+
+
+def first_number(text: str) -> float:
+    return float(re.match(r"[\d.e+-]+", text)[0])
+
+
+def assert_printed(value: float, printed: str) -> None:
+    """The value rounded to the printed digits is the printed one, give or take half the last digit."""
+    expected = first_number(printed)
+    mantissa = re.match(r"[\d.]+", printed)[0]
+    n_digits = len(mantissa.replace(".", "").lstrip("0")) or 1
+    assert abs(value - expected) <= 0.51 * 10 ** (np.floor(np.log10(expected)) - n_digits + 1), (
+        value,
+        printed,
+    )
+
+
+@pytest.mark.parametrize("row", READ, ids=[row["name"] for row in READ])
+def test_agrees_with_the_independent_measurement(row):
+    mesh_file = read(FOLDER / row["name"])
+    assert_is_mesh_file(mesh_file)
+    assert_identity_holds(mesh_file.mesh)
+    found = describe(mesh_file)
+    counts = [int(n) for n in re.findall(r"\d+", row["vertices/triangles (quads)"])]
+    assert [found["n_points"], found["n_triangles"]] == counts[:2]
+    assert found["ignored"].get("quad", 0) == (counts[2] if len(counts) > 2 else 0)
+    components = [int(n) for n in re.findall(r"\d+", row["components"])]
+    assert components in ([found["n_components"]], [found["n_components"], found["n_components_vertex"]])
+    assert found["n_boundary_loops"] == int(row["boundary loops"])
+    edges = row["edge min/med/max"].split(" / ")
+    for name, printed in zip(("edge_min", "edge_median", "edge_max"), edges, strict=True):
+        assert_printed(found[name], printed)
+    assert_printed(found["size_ratio"], row["size ratio h (edge; 1-99%)"])
+    q_min, q_mean = re.findall(r"[\d.e-]+", row["q min (mean)"])
+    assert_printed(found["q_min"], q_min)
+    assert found["q_mean"] == pytest.approx(float(q_mean), abs=0.0051)
+    interior = [int(n) for n in row["irregular interior / interior"].split(" / ")]
+    assert [found["irregular_interior"], found["n_interior"]] == interior
+    boundary = [int(n) for n in row["irregular boundary / boundary"].split(" / ")]
+    assert [found["irregular_boundary"], found["n_boundary"]] == boundary
+
+
+FORT14 = [row["name"] for row in READ if row["name"].endswith(".14")]
+
+
+@pytest.mark.parametrize("name", FORT14)
+def test_our_fort14_reader_agrees_with_the_converted_file(name):
+    ours, other = read(FOLDER / name), meshio.read(FOLDER / "oracle" / f"{name}.vtu")
+    assert np.array_equal(ours.mesh.points, other.points[:, :2])
+    if not ours.notes or "clockwise" not in ours.notes[0]:
+        assert np.array_equal(ours.mesh.triangles, other.cells_dict["triangle"])
+    assert np.array_equal(np.sort(ours.mesh.triangles), np.sort(other.cells_dict["triangle"]))
+    assert np.array_equal(ours.point_data["depth"], other.point_data["depth"])
+
+
+@pytest.mark.parametrize("path", FILES, ids=[str(p.relative_to(FOLDER)) for p in FILES])
+def test_every_file_is_read_or_refused_in_one_line(path, capsys):
+    try:
+        read(path)
+        expected = 0
+    except BsgplanError:
+        expected = 3
+    assert main(["info", str(path), "--json"]) == expected
+    out, err = capsys.readouterr()
+    errors = [line for line in err.splitlines() if line.startswith("error: ")]
+    assert len(errors) == (expected != 0)
+    assert "Traceback" not in err
+    assert (out == "") == (expected != 0)
+
+
+@pytest.mark.parametrize("name", [n for n in ("jigsaw_piece.msh", "la.1.node", "la.1.ele") if FILES])
+def test_formats_of_a_later_issue_are_named_with_a_remedy(name):
+    with pytest.raises(BsgplanError, match="not read yet; "):
+        read(FOLDER / name)
+
+
+def test_the_four_malformed_files_name_their_line(meshes):
+    for path in sorted((meshes / "malformed_fort14").iterdir()):
+        with pytest.raises(BsgplanError, match=r"\.14: line \d+: .*;"):
+            read(path)
+
+
+def test_several_zones_are_refused_not_mixed(meshes):
+    with pytest.raises(BsgplanError, match="4 zones"):
+        read(meshes / "multizone_cht_3cyl_ffd.su2")
+
+
+def test_coincident_points_are_told_and_not_merged(meshes):
+    found = read(meshes / "vew1d_coincident_seams.fort.14")
+    assert found.mesh.n_points == 4832
+    assert any(note.startswith("302 points coincide") for note in found.notes)
+    seams = [b for b in found.boundaries if b.code == 64]
+    assert sum(b.n_nodes for b in seams) == 302
+    for seam in seams:
+        assert np.array_equal(found.mesh.points[seam.nodes], found.mesh.points[seam.partners])
