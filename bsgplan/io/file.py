@@ -104,8 +104,9 @@ def assemble(path: str, format: str, raw: RawMesh, projection: Projection | None
     n_unused = len(raw.points) - len(np.union1d(cleaned.kept_points, raw.quads.ravel()))
     n_lost = n_nodes(raw.boundaries) - n_nodes(boundaries)
     n_coincident = _n_coincident(cleaned.mesh.points)
+    n_flipped = cleaned.n_flipped
     told = {
-        f"{cleaned.n_flipped} clockwise triangle{_s(cleaned.n_flipped)} turned counter-clockwise": cleaned.n_flipped,
+        f"{n_flipped} clockwise triangle{_s(n_flipped)} turned counter-clockwise": n_flipped,
         f"{n_unused} point{_s(n_unused)} of no cell dropped": n_unused,
         f"{n_lost} boundary entries dropped, their points are in no triangle": n_lost,
         "constant third coordinate dropped": cleaned.is_flattened,

@@ -10,10 +10,39 @@ from bsgplan.cli import main
 
 SQUARE = "a square\n2 4\n1 0 0 1\n2 1 0 1\n3 1 1 1\n4 0 1 1\n1 3 1 2 3\n2 3 1 3 4\n"
 
-KEYS = """path format n_points n_triangles n_components n_boundary_loops euler_characteristic pinches genus q_min q_mean
-angle_min edge_ratio_max edge_min edge_median edge_max size_ratio irregularity irregular_interior n_interior
-irregular_boundary n_boundary irregular_boundary_fitted area bounds ignored quads boundaries arrays notes
-projection""".split()
+KEYS = [
+    "path",
+    "format",
+    "n_points",
+    "n_triangles",
+    "n_components",
+    "n_boundary_loops",
+    "euler_characteristic",
+    "pinches",
+    "genus",
+    "q_min",
+    "q_mean",
+    "angle_min",
+    "edge_ratio_max",
+    "edge_min",
+    "edge_median",
+    "edge_max",
+    "size_ratio",
+    "irregularity",
+    "irregular_interior",
+    "n_interior",
+    "irregular_boundary",
+    "n_boundary",
+    "irregular_boundary_fitted",
+    "area",
+    "bounds",
+    "ignored",
+    "quads",
+    "boundaries",
+    "arrays",
+    "notes",
+    "projection",
+]
 
 
 @pytest.fixture

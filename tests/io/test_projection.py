@@ -41,8 +41,8 @@ def test_the_map_keeps_angles():
     here = np.array([[-60.0, 35.0]])
     step = 1e-5
     projection = Projection(-75.0, 25.0)
-    east = projection.to_plane(here + [step, 0]) - projection.to_plane(here)
-    north = projection.to_plane(here + [0, step]) - projection.to_plane(here)
+    east = projection.to_plane(np.add(here, [step, 0])) - projection.to_plane(here)
+    north = projection.to_plane(np.add(here, [0, step])) - projection.to_plane(here)
     cosine = (east @ north.T).item() / np.linalg.norm(east) / np.linalg.norm(north)
     assert abs(cosine) < 1e-4
 
