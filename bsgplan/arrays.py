@@ -36,6 +36,15 @@ def frozen_ints(values: Any) -> Ints:
     return _frozen(array, values)
 
 
+def sums_by(index: Ints, values: Floats, n: int) -> Floats:
+    """Return the sum of the values with each index 0 .. n - 1, (n,); both flattened alike.
+
+    >>> sums_by(np.array([0, 2, 2]), np.array([1.0, 2.0, 3.0]), 3)
+    array([1., 0., 5.])
+    """
+    return np.asarray(np.bincount(index.ravel(), values.ravel(), n), dtype=np.float64)
+
+
 def _frozen(array: NDArray[Any], source: Any) -> NDArray[Any]:
     if array is source and array.flags.writeable:
         array = array.view()  # the caller keeps a writable array; ours is a read-only view of it

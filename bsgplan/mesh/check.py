@@ -79,13 +79,17 @@ def check_shapes(points: Floats, triangles: Ints) -> None:
         raise InvalidMesh(f"triangles have shape {triangles.shape}; give (n_triangles, 3)")
     if not len(triangles):
         raise InvalidMesh("the mesh has no triangles; give a mesh of triangles")
-    is_bad = ((triangles < 0) | (triangles >= len(points))).any(axis=1)
+    is_bad = np.asarray(((triangles < 0) | (triangles >= len(points))).any(axis=1))
     if is_bad.any():
-        raise InvalidMesh(_first(is_bad, triangles, f"an index outside 0 .. {len(points) - 1}", "repair the file"))
+        raise InvalidMesh(
+            _first(is_bad, triangles, f"an index outside 0 .. {len(points) - 1}", "repair the file")
+        )
     is_bad = ~np.isfinite(points).all(axis=1)
     if is_bad.any():
         where = np.flatnonzero(is_bad)
-        raise InvalidMesh(f"{len(where)} points are not finite, the first {where[0]} at {points[where[0]]}; repair the file")
+        raise InvalidMesh(
+            f"{len(where)} points are not finite, the first {where[0]} at {points[where[0]]}; repair the file"
+        )
 
 
 def check_mesh(points: Floats, triangles: Ints) -> None:
@@ -101,7 +105,11 @@ def check_mesh(points: Floats, triangles: Ints) -> None:
     if is_flat.any():
         raise InvalidMesh(_first(is_flat, triangles, "zero area", "clean the mesh first"))
     if points.shape[1] == 2 and (areas < 0).any():
-        raise InvalidMesh(_first(areas < 0, triangles, "clockwise corners", "orient them with bsgplan.mesh.clean"))
+        raise InvalidMesh(
+            _first(
+                np.asarray(areas < 0), triangles, "clockwise corners", "orient them with bsgplan.mesh.clean"
+            )
+        )
 
 
 def _first(is_bad: Bools, triangles: Ints, what: str, remedy: str) -> str:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import coo_array, csr_array
 
-from ..arrays import Floats
+from ..arrays import Floats, sums_by
 from .mesh import Mesh
 
 
@@ -48,14 +48,16 @@ def stiffness(mesh: Mesh, conductivity: Floats | None = None, hats: Floats | Non
 
 def vertex_areas(mesh: Mesh) -> Floats:
     """Return a third of the area of the triangles around each vertex, (n_points,), length**2."""
-    return np.bincount(mesh.triangles.ravel(), weights=np.repeat(mesh.areas / 3, 3), minlength=mesh.n_points)
+    return sums_by(mesh.triangles, np.repeat(mesh.areas / 3, 3), mesh.n_points)
 
 
 def to_vertices(mesh: Mesh, triangle_values: Floats) -> Floats:
     """Return the area-weighted mean of triangle values around each vertex, (n_points, ...)."""
     values = triangle_values.reshape(mesh.n_triangles, -1) * mesh.areas[:, None]
     flat = mesh.triangles.ravel()
-    sums = [np.bincount(flat, weights=np.repeat(column, 3), minlength=mesh.n_points) for column in values.T]
-    area = np.bincount(flat, weights=np.repeat(mesh.areas, 3), minlength=mesh.n_points)
-    result: Floats = (np.column_stack(sums) / area[:, None]).reshape(mesh.n_points, *triangle_values.shape[1:])
+    sums = [sums_by(flat, np.repeat(column, 3), mesh.n_points) for column in values.T]
+    area = sums_by(flat, np.repeat(mesh.areas, 3), mesh.n_points)
+    result: Floats = (np.column_stack(sums) / area[:, None]).reshape(
+        mesh.n_points, *triangle_values.shape[1:]
+    )
     return result

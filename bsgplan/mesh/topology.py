@@ -163,8 +163,10 @@ def topology(cells: Ints, n_points: int) -> Topology:
 
 def _non_manifold(edges: Ints, count: Ints) -> str:
     bad = np.flatnonzero(count > 2)
-    named = ", ".join(f"({a}, {b}) in {n} cells" for (a, b), n in zip(edges[bad[:3]], count[bad[:3]], strict=True))
-    return f"{len(bad)} non-manifold edges, the first between points {named}; an edge may lie in two cells at most"
+    named = ", ".join(
+        f"({a}, {b}) in {n} cells" for (a, b), n in zip(edges[bad[:3]], count[bad[:3]], strict=True)
+    )
+    return f"{len(bad)} non-manifold edges, the first between points {named}; an edge has two cells at most"
 
 
 def _next_corner(corner: Ints, n_corners: int) -> Ints:
@@ -172,5 +174,7 @@ def _next_corner(corner: Ints, n_corners: int) -> Ints:
 
 
 def _components(links: Ints, n_nodes: int) -> Ints:
-    graph = coo_array((np.ones(len(links), dtype=np.int8), (links[:, 0], links[:, 1])), shape=(n_nodes, n_nodes))
+    graph = coo_array(
+        (np.ones(len(links), dtype=np.int8), (links[:, 0], links[:, 1])), shape=(n_nodes, n_nodes)
+    )
     return connected_components(graph, directed=False)[1].astype(np.int64)

@@ -1,8 +1,10 @@
 """The quality of the triangles between two fronts of any two lengths, open or closed.
 
-Open fronts are parallel lines with a common axis of symmetry, at a distance: a trapezoid. Closed ones are
-circles around a common axis, at a slant distance: the frustum of a cone, flat (a planar annulus) where
-the slant is all radial. Triangle edges are chords. Both reduce to one formula, that of `width.py`: with
+Open fronts are concentric arcs between two radii: the walls of a transition region run along the gradient
+of the size, square to its fronts, so a strip is a rectangle where its fronts are equally long and a piece of
+an annulus, of angle (change of length) / width, where they are not. Closed fronts are circles around a common
+axis, at a slant distance: the frustum of a cone, flat (a planar annulus) where the slant is all radial.
+Triangle edges are chords. Both reduce to one formula, that of `width.py`: with
 base b, height h and apex offset t from the middle of the base, q = 2 sqrt(3) b h / (2 h^2 + 3/2 b^2 + 2 t^2).
 """
 
@@ -53,7 +55,11 @@ def mean_ratios(table: Floats, first: Floats, second: Floats, width: Floats, *, 
         square = rise(width, difference) ** 2
         height = np.sqrt(radial**2 + square) * np.sign(radial * difference + square)
     else:
-        base, offset, height = own * share, other * apex - own * midpoint, width
+        angle = (second - first) / width
+        base = own * _sine(angle, share / 2) * 2
+        offset = other * _sine(angle, apex - midpoint)
+        sag = other * _versine(angle, apex - midpoint) - own * _versine(angle, share / 2)
+        height = width - np.where(side > 0, -sag, sag)
     return np.asarray(2 * np.sqrt(3) * base * height / (2 * height**2 + 1.5 * base**2 + 2 * offset**2))
 
 
@@ -67,6 +73,17 @@ def rise(width: Floats, difference: Floats) -> Floats:
     """
     square = width**2 - difference**2
     return np.asarray(np.sqrt(np.where(square > FLAT * width**2, square, 0.0)))
+
+
+def _sine(angle: Floats, share: Floats) -> Floats:
+    """Return sin(angle * share) / angle, which is share where the angle is 0."""
+    return np.asarray(share * np.sinc(angle * share / np.pi))
+
+
+def _versine(angle: Floats, share: Floats) -> Floats:
+    """Return (1 - cos(angle * share)) / angle, which is 0 where the angle is 0."""
+    half = np.sin(angle * share / 2)
+    return np.asarray(share * np.sinc(angle * share / (2 * np.pi)) * half)
 
 
 @lru_cache(maxsize=1024)

@@ -1,6 +1,7 @@
 """The noun Realised: a pattern as a block triangulation with coordinates, and its irregular vertices.
 
-Open fronts are vertical lines, the first at x = 0, centred on y = 0, their vertices numbered upwards.
+Open fronts are arcs across the x axis, the first at x = 0, their vertices numbered upwards: vertical lines
+where the region is straight, arcs of one common angle where its fronts grow or shrink with the distance.
 Closed fronts are circles around the z axis; in the plane where all layers are flat, in space otherwise.
 Invariants: blocks come strip by strip in the order of `strip_triangles`, counter-clockwise in the plane
 (seen from outside in space); irregularities of a front sum to Eq. 16.
@@ -19,6 +20,9 @@ from .frustum import rise
 from .pattern import Pattern
 from .shape import Shape
 from .strip import ring_turn, strip_triangles
+
+WIDEST = 1.9 * np.pi
+"""Angle of an open region beyond which its drawing would overlap itself, radians."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +55,7 @@ def realise(pattern: Pattern, shape: Shape, positions: Floats) -> Realised:
     start = np.concatenate([[0], np.cumsum(n_points)])
     front = np.repeat(np.arange(pattern.n_fronts), n_points)
     share = (np.arange(start[-1]) - start[front]) / np.array(pattern.counts)[front]
-    place = _on_rings if pattern.is_closed else _on_lines
+    place = _on_rings if pattern.is_closed else _on_arcs
     points = place(pattern, shape, positions, share, front)
     triangles = np.concatenate(
         [
@@ -93,8 +97,13 @@ def vertex_irregularity_of_fronts(realised: Realised) -> tuple[Irregularity, ...
     return tuple(summed(values[realised.front == k]) for k in range(int(realised.front[-1]) + 1))
 
 
-def _on_lines(_: Pattern, shape: Shape, positions: Floats, share: Floats, front: Ints) -> Floats:
-    return np.column_stack([positions[front], shape.front_lengths(positions)[front] * (share - 0.5)])
+def _on_arcs(_: Pattern, shape: Shape, positions: Floats, share: Floats, front: Ints) -> Floats:
+    lengths = shape.front_lengths(positions)
+    slope = np.polyfit(positions - positions.mean(), lengths, 1)[0]
+    angle = float(np.clip(slope, -WIDEST, WIDEST)) * (share - 0.5)
+    length = lengths[front] * (share - 0.5)
+    sag = length * np.sinc(angle / (2 * np.pi)) * np.sin(angle / 2)
+    return np.column_stack([positions[front] - sag, length * np.sinc(angle / np.pi)])
 
 
 def _on_rings(pattern: Pattern, shape: Shape, positions: Floats, share: Floats, front: Ints) -> Floats:

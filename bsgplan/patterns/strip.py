@@ -94,9 +94,8 @@ def strip_table(m: int, n: int, *, is_closed: bool = False) -> Floats:
 def critical_table(m: int, n: int, *, is_closed: bool = False) -> Floats:
     """Return the columns of the strip table among which to look for the worst triangle, (4, n_critical).
 
-    Open: on each front, the offset of apex from midpoint is linear in the table for whatever lengths of
-    the two fronts, so its extremes are on the convex hull of (midpoint, apex): exact. Closed: the triangles
-    with the smallest and the largest turn of apex against midpoint: exact in a planar annulus.
+    On each front the triangles with the smallest and the largest turn of apex against midpoint: exact in a
+    rectangle, an annulus and a piece of one.
 
     >>> critical_table(12, 11).shape, strip_table(12, 11).shape
     ((4, 4), (4, 23))
@@ -104,28 +103,6 @@ def critical_table(m: int, n: int, *, is_closed: bool = False) -> Floats:
     table = strip_table(m, n, is_closed=is_closed)
     keep: list[int] = []
     for side in (slice(0, m), slice(m, m + n)):
-        midpoint, apex = table[2, side], table[3, side]
-        if is_closed:
-            turn = np.abs(apex - midpoint)
-            found = {int(turn.argmin()), int(turn.argmax())}
-        else:
-            found = {*_upper_chain(midpoint, apex), *_upper_chain(midpoint, -apex)}
-        keep += sorted(side.start + k for k in found)
+        turn = np.abs(table[3, side] - table[2, side])
+        keep += sorted({side.start + int(turn.argmin()), side.start + int(turn.argmax())})
     return frozen_floats(table[:, keep])
-
-
-def _upper_chain(x: Floats, y: Floats) -> list[int]:
-    """Indices of the upper convex hull of points sorted by x."""
-    chain: list[int] = []
-    for k in range(len(x)):
-        while len(chain) > 1:
-            i, j = chain[-2:]
-            if (x[j] - x[i]) * (y[k] - y[i]) < (y[j] - y[i]) * (x[k] - x[i]) - COLLINEAR:
-                break
-            chain.pop()
-        chain.append(k)
-    return chain
-
-
-COLLINEAR = 1e-12
-"""Points whose triangle, in shares of the front, is thinner than this lie on a line: rounding of m / n."""

@@ -74,7 +74,9 @@ def smooth_borders(mesh: Mesh, label: Ints, *, rounds: int) -> Ints:
     return _pull_teeth(mesh, label)
 
 
-def merge_small(mesh: Mesh, label: Ints, log_h: Floats, weight: Floats, *, least: float, width: float) -> Ints:
+def merge_small(
+    mesh: Mesh, label: Ints, log_h: Floats, weight: Floats, *, least: float, width: float
+) -> Ints:
     """Return labels where no region is under least triangles or under width layers thick, (n_triangles,).
 
     The smallest joins first, the neighbour with the longest common border (in edges) weighed against the
@@ -97,7 +99,7 @@ def merge_small(mesh: Mesh, label: Ints, log_h: Floats, weight: Floats, *, least
         if size >= least and size >= width * edges_around:
             continue
         mean = moment[i] / total[i]
-        best = max(border[i], key=lambda j: (border[i][j] / (0.1 + abs(mean - moment[j] / total[j])), -j))  # noqa: B023
+        best = max(border[i], key=lambda j: (border[i][j] / (0.1 + abs(mean - moment[j] / total[j])), -j))
         _join(border, rim, i, best)
         parent[i] = best
         total[best] += total[i]
@@ -138,7 +140,7 @@ def _near_border(mesh: Mesh, label: Ints, rings: int) -> Bools:
     vertex = np.zeros(mesh.n_points, dtype=bool)
     for _ in range(rings):
         vertex[mesh.triangles[near]] = True
-        near = vertex[mesh.triangles].any(axis=1)
+        near = np.asarray(vertex[mesh.triangles].any(axis=1))
     return near
 
 

@@ -20,9 +20,7 @@ def find_regions(
     size: SizeField, *, tris_per_block: int = 16, persistence: float = PERSISTENCE, plateau: float = PLATEAU
 ) -> Regions:
     """Return the monotone transition regions and uniform zones of a size field, as `segment` cuts them."""
-    label, is_uniform = segment(
-        size, tris_per_block=tris_per_block, persistence=persistence, plateau=plateau
-    )
+    label, is_uniform = segment(size, tris_per_block=tris_per_block, persistence=persistence, plateau=plateau)
     return measure_regions(size, label, is_uniform, tris_per_block=tris_per_block, persistence=persistence)
 
 
@@ -42,7 +40,9 @@ def measure_regions(
     fluxes = edge_fluxes(size)
     charges = region_charges(inside, fluxes)
     irregularity = inner_irregularity(size, inside, n)
-    is_closed = np.sum([_is_ring(size, inside, _level(size, inside, n, share)) for share in PROBES], axis=0) >= 2
+    is_closed = (
+        np.sum([_is_ring(size, inside, _level(size, inside, n, share)) for share in PROBES], axis=0) >= 2
+    )
     is_monotone = _monotone(size, inside, n, persistence)
     order = np.argsort(inside, kind="stable")
     start = np.searchsorted(inside[order], np.arange(n + 1))
@@ -100,7 +100,9 @@ def _monotone(size: SizeField, label: Ints, n: int, persistence: float) -> Bools
     The size field of each region is taken by itself: corners are split between regions.
     """
     mesh = size.mesh
-    node = np.unique(np.repeat(label, 3) * np.int64(mesh.n_points) + mesh.triangles.ravel(), return_inverse=True)
+    node = np.unique(
+        np.repeat(label, 3) * np.int64(mesh.n_points) + mesh.triangles.ravel(), return_inverse=True
+    )
     owner, vertex = np.divmod(node[0], mesh.n_points)
     corners = node[1].reshape(-1, 3)
     ends = np.sort(np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]]), axis=1)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import Floats, Ints, frozen_floats
+from ..arrays import Floats, Ints, frozen_floats, sums_by
 from ..mesh.operators import gradient
 from ..sizing import SizeField
 
@@ -86,7 +86,7 @@ def profiles(size: SizeField, label: Ints, *, tris_per_block: int = 16) -> list[
     bin_of = _bins_of_samples(size, label, edges, first).ravel()
     slope = np.linalg.norm(gradient(size.mesh, size.log_h), axis=1) * size.mesh.areas
     weight, front, length = (
-        np.bincount(bin_of, np.repeat(value / SAMPLES, SAMPLES), int(first[-1]))
+        sums_by(bin_of, np.repeat(value / SAMPLES, SAMPLES), int(first[-1]))
         for value in (size.triangle_weights, slope / size.triangle_h, slope)
     )
     result = []
@@ -179,7 +179,9 @@ def _bin_edges(size: SizeField, label: Ints, least: float) -> tuple[Floats, Ints
         own = slice(start[k], start[k + 1])
         share = np.cumsum(weight[own]) - weight[own] / 2
         inner = np.interp(np.arange(1, n_bins[k]) * total[k] / n_bins[k], share, middle[order[own]])
-        ladder = np.linspace(low[k], high[k], n_bins[k] + 1)  # keeps the edges apart where all sizes are equal
+        ladder = np.linspace(
+            low[k], high[k], n_bins[k] + 1
+        )  # keeps the edges apart where all sizes are equal
         edges.append(0.999 * np.concatenate([low[k : k + 1], inner, high[k : k + 1]]) + 0.001 * ladder)
     return np.concatenate(edges), np.concatenate([[0], np.cumsum(n_bins)])
 

@@ -35,7 +35,8 @@ def segment(
 ) -> tuple[Ints, Bools]:
     """Return the region of each triangle, (n_triangles,), and whether each region is a uniform zone.
 
-    Regions are edge-connected and numbered from 0, finest first. persistence is in log size, plateau in |grad h|.
+    Regions are edge-connected and numbered from 0, finest first; persistence is in log size, plateau a
+    bound on |grad h|.
     """
     mesh, side = size.mesh, np.sqrt(tris_per_block)
     log_h, weight = np.log(size.triangle_h), size.triangle_weights

@@ -74,7 +74,9 @@ def _merge(edges: Ints, values: Floats, minima: Ints, basin: Ints, persistence: 
         label = further
 
 
-def _lowest_saddles(first: Ints, second: Ints, saddle: Floats, n_basins: int) -> tuple[list[int], list[int], list[float]]:
+def _lowest_saddles(
+    first: Ints, second: Ints, saddle: Floats, n_basins: int
+) -> tuple[list[int], list[int], list[float]]:
     """Return the minimum spanning tree of the basins over their saddles, lowest saddle first."""
     if not len(saddle):
         return [], [], []

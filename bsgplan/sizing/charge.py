@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..arrays import Floats, Ints
+from ..arrays import Floats, Ints, sums_by
 from ..mesh.operators import gradient
 from .field import SizeField
 from .smoothing import smooth_gradient
@@ -45,5 +45,5 @@ def edge_fluxes(size: SizeField, *, reach: float = REACH) -> Floats:
 
 
 def region_charges(label: Ints, fluxes: Floats) -> Floats:
-    """Return the charge inside each region, (n_regions,), from `edge_fluxes`; label from 0, one a triangle."""
-    return np.bincount(label, fluxes.sum(axis=1))
+    """Return the charge inside each region, (n_regions,); label from 0, one a triangle."""
+    return sums_by(label, fluxes.sum(axis=1), int(label.max()) + 1)

@@ -33,12 +33,15 @@ class SizeField:
     def __post_init__(self) -> None:
         object.__setattr__(self, "h", frozen_floats(self.h))
         if self.h.shape != (self.mesh.n_points,):
-            raise InvalidSize(f"size has shape {self.h.shape}; give one value a point, ({self.mesh.n_points},)")
+            raise InvalidSize(
+                f"size has shape {self.h.shape}; give one value a point, ({self.mesh.n_points},)"
+            )
         is_bad = ~(np.isfinite(self.h) & (self.h > 0))
         if is_bad.any():
             first = int(np.flatnonzero(is_bad)[0])
             raise InvalidSize(
-                f"size {self.source!r} is {self.h[first]:g} at point {first} ({np.count_nonzero(is_bad)} such points); "
+                f"size {self.source!r} is {self.h[first]:g} at point {first} "
+                f"({np.count_nonzero(is_bad)} such points); "
                 "an edge length is positive and finite"
             )
 

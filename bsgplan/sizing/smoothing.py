@@ -79,7 +79,9 @@ def diffuse(mesh: Mesh, values: Floats, length: Floats) -> Floats:
     length is one value a triangle, (n_triangles,). Keeps the mean; flattens at the wall.
     """
     mass = vertex_areas(mesh)
-    matrix = csr_array(_diagonal(mass) + stiffness(mesh, length**2 * np.minimum(mesh.qualities / SLIVER, 1.0)))
+    matrix = csr_array(
+        _diagonal(mass) + stiffness(mesh, length**2 * np.minimum(mesh.qualities / SLIVER, 1.0))
+    )
     flat = values.reshape(mesh.n_points, -1)
     columns = [_solve(matrix, mass * column, column) for column in flat.T]
     result: Floats = np.column_stack(columns).reshape(values.shape)

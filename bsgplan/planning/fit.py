@@ -1,0 +1,109 @@
+"""Integers for a measured profile: the sequences of front counts that a region may be built with.
+
+For a number of strips K the profile asks for the real counts t_k = f(T_k) / s on K + 1 fronts. A sequence of
+integers near them is found by dynamic programming over pairs of neighbouring fronts, which minimises
+
+    sum ((ln f_k - ln t_k) / TOLERANCE)^2 + price * sum |f_(k-1) - 2 f_k + f_(k+1)| + steep strips,
+
+the middle sum being Eq. 16 of [Zint & Grosso] with the ends of Eq. 17 and 18. A low price follows the size
+field, a high one saves irregular vertices; beside these stand the arithmetic and the geometric sequence.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..arrays import Floats, Ints
+from ..regions import Profile
+
+TOLERANCE = 0.15
+"""Misfit of a count in log size that costs as much as one irregular vertex at price 1."""
+
+PRICES = (0.0, 0.3, 2.0)
+"""Prices of an irregular vertex that are tried."""
+
+STEEP = 4.0
+"""Cost of a strip that halves its count too fast, per unit of ratio beyond 2 (3:1 caps q_min at .5)."""
+
+
+def sequences(profile: Profile, side: float, *, least: int = 1) -> list[tuple[int, ...]]:
+    """Return distinct sequences of front counts for a profile, fine end first.
+
+    side is s, the elements along a block edge; least is the smallest count allowed (3 on rings). Strips
+    come in the numbers just under and over layers / s, one less, and one more where there are few.
+    """
+    ideal = profile.layers / side
+    floor = int(np.floor(ideal))
+    n_strips = {max(1, n) for n in (floor - 1, floor, floor + 1)} | ({floor + 2} if ideal < 3 else set())
+    found: dict[tuple[int, ...], None] = {}
+    for n in sorted(n_strips):
+        wanted = block_counts(profile, side, n)
+        same_blocks = wanted * np.clip(ideal / n, 0.7, 1.4)
+        fine, coarse = (max(least, round(float(t))) for t in wanted[[0, -1]])
+        found[_whole(np.linspace(fine, coarse, n + 1), least)] = None
+        found[_whole(np.geomspace(fine, coarse, n + 1), least)] = None
+        for target in (wanted, same_blocks):
+            for price in PRICES:
+                found[_best_sequence(np.maximum(target, least), price, least)] = None
+    direct = _whole(block_counts(profile, side, 1), least)
+    if ideal < 4:
+        found[direct] = None
+    return list(found)
+
+
+def block_counts(profile: Profile, side: float, n_strips: int) -> Floats:
+    """Return the real counts t_k that a profile asks for on n_strips + 1 fronts, (n_strips + 1,)."""
+    depths = np.linspace(0.0, profile.layers, n_strips + 1)
+    return profile.counts_at(depths) / side
+
+
+def misfit(counts: tuple[int, ...], profile: Profile, side: float) -> float:
+    """Return the rms of ln(block edge / wanted edge), 0 for a pattern that follows the size field.
+
+    Edges along the fronts have ln(t_k / f_k), edges across all strips ln(layers / (s K)); each front weighs
+    as its count, and across weighs as much as along.
+    """
+    n_strips = len(counts) - 1
+    wanted = block_counts(profile, side, n_strips)
+    weight = np.asarray(counts, dtype=np.float64)
+    along = (weight * np.log(wanted / weight) ** 2).sum() / weight.sum()
+    across = np.log(profile.layers / (side * n_strips)) ** 2
+    return float(np.sqrt((along + across) / 2))
+
+
+def _whole(wanted: Floats, least: int) -> tuple[int, ...]:
+    return tuple(int(n) for n in np.maximum(least, np.rint(wanted)))
+
+
+def _best_sequence(wanted: Floats, price: float, least: int) -> tuple[int, ...]:
+    """Return the cheapest sequence near wanted, by dynamic programming over pairs of fronts."""
+    choices = [_choices(t, least) for t in wanted]
+    fits = [(np.log(c / t) / TOLERANCE) ** 2 for c, t in zip(choices, wanted, strict=True)]
+    first, second = choices[0], choices[1]
+    cost = fits[0][:, None] + fits[1][None, :] + _strip_cost(first, second)
+    cost += price * np.abs(second[None, :] - first[:, None])
+    came_from: list[Ints] = []
+    for k in range(2, len(choices)):
+        a, b, c = choices[k - 2], choices[k - 1], choices[k]
+        bend = np.abs(a[:, None, None] - 2 * b[None, :, None] + c[None, None, :])
+        total = cost[:, :, None] + price * bend
+        came_from.append(total.argmin(axis=0))
+        cost = total.min(axis=0) + fits[k][None, :] + _strip_cost(b, c)
+    last_step = np.abs(choices[-2][:, None] - choices[-1][None, :])
+    i, j = np.unravel_index(int((cost + price * last_step).argmin()), cost.shape)
+    path = [int(j), int(i)]
+    for back in reversed(came_from):
+        path.append(int(back[path[-1], path[-2]]))
+    return tuple(int(choices[k][i]) for k, i in enumerate(reversed(path)))
+
+
+def _choices(wanted: float, least: int) -> Ints:
+    reach = int(np.clip(np.ceil(0.12 * wanted), 1, 8))
+    return np.arange(
+        max(least, int(np.floor(wanted)) - reach + 1), max(least, int(np.ceil(wanted)) + reach - 1) + 1
+    )
+
+
+def _strip_cost(first: Ints, second: Ints) -> Floats:
+    a, b = np.maximum(first[:, None], second[None, :]), np.minimum(first[:, None], second[None, :])
+    return STEEP * np.maximum(a / b - 2.0, 0.0)
