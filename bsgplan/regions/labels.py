@@ -77,13 +77,12 @@ def smooth_borders(mesh: Mesh, label: Ints, *, rounds: int) -> Ints:
 def merge_small(
     mesh: Mesh, label: Ints, log_h: Floats, weight: Floats, *, least: float, width: float
 ) -> Ints:
-    """Return labels where no region is under least triangles or under width layers thick, (n_triangles,).
+    """Return labels where no region is under its least triangles or width layers thick, (n_triangles,).
 
     The smallest joins first, the neighbour with the longest common border (in edges) weighed against the
     step in mean log size between the two: border / (0.1 + step). Thickness is triangles per border edge.
-    A region without neighbours stays. log_h and weight are one value a triangle.
+    A region without neighbours stays. log_h and weight are one value a triangle, least one a label.
     """
-    label = compact(label)
     n = int(label.max()) + 1
     parent = np.arange(n)
     total = np.bincount(label, weight, n)
@@ -96,7 +95,7 @@ def merge_small(
         if parent[i] != i or size != total[i] or not border[i]:
             continue
         edges_around = rim[i] + sum(border[i].values())
-        if size >= least and size >= width * edges_around:
+        if size >= least[i] and size >= width * edges_around:
             continue
         mean = moment[i] / total[i]
         best = max(border[i], key=lambda j: (border[i][j] / (0.1 + abs(mean - moment[j] / total[j])), -j))

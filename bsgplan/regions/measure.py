@@ -7,9 +7,10 @@ import numpy as np
 from ..arrays import Bools, Floats, Ints
 from ..sizing import SizeField
 from ..sizing.charge import edge_fluxes, region_charges
+from .plateau import PLATEAU
 from .profile import profiles
 from .region import TRANSITION, UNIFORM, Region, Regions, inner_irregularity
-from .segmentation import PERSISTENCE, PLATEAU, segment
+from .segmentation import PERSISTENCE, segment
 from .watershed import basins
 
 PROBES = (0.35, 0.5, 0.65)

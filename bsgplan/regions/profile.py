@@ -45,13 +45,15 @@ class Profile:
     """Depth of each station in layers of elements, (n,), increasing from 0."""
     counts: Floats
     """Elements on the front through each station, (n,)."""
+    levels: Floats
+    """Log size whose contour is that front, (n,), increasing."""
     lengths: Floats
     """Length of that front, (n,), length."""
     positions: Floats
     """Distance of that front from the fine end, (n,), length."""
 
     def __post_init__(self) -> None:
-        for name in ("depths", "counts", "lengths", "positions"):
+        for name in ("depths", "counts", "levels", "lengths", "positions"):
             object.__setattr__(self, name, frozen_floats(getattr(self, name)))
 
     @property
@@ -77,6 +79,14 @@ class Profile:
     def counts_at(self, depths: Floats) -> Floats:
         """Return elements on the fronts at these depths, (n,), linear between stations."""
         return np.interp(depths, self.depths, self.counts)
+
+    def depths_at(self, log_h: Floats) -> Floats:
+        """Return the depths in layers of the contours of these log sizes, (n,), clipped to the ends."""
+        return np.interp(log_h, self.levels, self.depths)
+
+    def levels_at(self, depths: Floats) -> Floats:
+        """Return the log sizes of the fronts at these depths, (n,)."""
+        return np.interp(depths, self.depths, self.levels)
 
 
 def profiles(size: SizeField, label: Ints, *, tris_per_block: int = 16) -> list[Profile]:
@@ -106,22 +116,25 @@ def _profile(edges: Floats, weight: Floats, front: Floats, length: Floats) -> Pr
     """
     edges, lengths = edges.copy(), length / np.diff(edges)
     ends = np.empty(2)
-    for side, inner in ((0, slice(1, 4)), (-1, slice(-4, -1))):
+    for side, inner in ((0, slice(1, 7)), (-1, slice(-7, -1))):
         ends[side] = _end_length(edges, lengths, side, inner)
         if lengths[side] < ends[side]:
             kept = length[side] / ends[side]
             edges[side] = edges[1] - kept if side == 0 else edges[-2] + kept
     step = np.diff(edges)
     weight, counts, lengths = _absorb_ragged_end(weight, front / step, length / step)
+    n_absorbed = len(step) - len(counts)
+    edges = np.concatenate([edges[:1], edges[1 + n_absorbed :]])
     layers = weight / (2 * counts)
     h = lengths / counts
     ends[0] = max(ends[0], lengths[0])
     end_counts = ends / np.exp(edges[[0, -1]])
-    if len(counts) < len(step):  # the fine end was ragged: its front is the first full one
+    if n_absorbed:  # the fine end was ragged: its front is the first full one
         ends[0], end_counts[0] = lengths[0], counts[0]
     return Profile(
         depths=_stations(layers),
         counts=np.concatenate([end_counts[:1], counts, end_counts[1:]]),
+        levels=np.concatenate([edges[:1], (edges[1:] + edges[:-1]) / 2, edges[-1:]]),
         lengths=np.concatenate([ends[:1], lengths, ends[1:]]),
         positions=_stations(layers * h * np.sqrt(3) / 2),
     )
@@ -144,7 +157,7 @@ def _absorb_ragged_end(weight: Floats, counts: Floats, lengths: Floats) -> tuple
 
 
 def _end_length(edges: Floats, lengths: Floats, side: int, inner: slice) -> float:
-    """Return the length of the front at one end, continued from the bins beside it in log length."""
+    """Return the length of the front at one end, continued from the six bins beside it in log length."""
     if len(lengths) < 4:
         return float(lengths.max())
     middle = ((edges[1:] + edges[:-1]) / 2)[inner]
@@ -152,7 +165,7 @@ def _end_length(edges: Floats, lengths: Floats, side: int, inner: slice) -> floa
     trend = np.polyfit(middle - middle.mean(), logs, 1)[0]
     reach = edges[1] if side == 0 else edges[-2]
     trend = np.clip(trend * (reach - middle.mean()), -MOST_TREND, MOST_TREND)
-    return float(np.exp(logs.mean() + trend))
+    return float(np.exp(np.median(logs) + trend))
 
 
 def _stations(thickness: Floats) -> Floats:

@@ -9,22 +9,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..arrays import Bools, Floats, Ints
+from ..arrays import Bools, Floats, Ints, sums_by
 from ..mesh import Mesh
-from ..mesh.operators import gradient
 from ..sizing import SizeField
-from ..sizing.smoothing import smooth_gradient
 from . import labels
+from .plateau import PLATEAU, plateaus
 from .watershed import basins
 
 PERSISTENCE = float(np.log(1.3))
 """Default depth in log size below which a fine or coarse spot is noise: sizes that differ by 30 %."""
 
-PLATEAU = 0.03
-"""Default |grad h| under which the size counts as constant: 3 % from one element to the next."""
-
 LEAST_BLOCKS = 4
-"""A region of fewer blocks than this joins a neighbour: one block each way, from 2 fronts of 2."""
+"""A transition of fewer blocks than this joins a neighbour: 2:2 on two fronts. A uniform zone needs one."""
 
 LEAST_WIDTH = 0.5
 """A region thinner than this many block layers joins a neighbour."""
@@ -40,35 +36,25 @@ def segment(
     """
     mesh, side = size.mesh, np.sqrt(tris_per_block)
     log_h, weight = np.log(size.triangle_h), size.triangle_weights
-    least, width = LEAST_BLOCKS * tris_per_block, LEAST_WIDTH * side
-    is_zone = _plateaus(size, plateau, persistence, least)
+    is_zone = plateaus(size, plateau=plateau, spread=2 * persistence, least=tris_per_block)
     label = labels.connected(mesh, np.where(is_zone, -1, _monotone_cells(mesh, size.log_h, persistence)))
+
+    def merged(label: Ints) -> Ints:
+        least = np.where(_zone_share(label, weight, is_zone) > 0.5, 1, LEAST_BLOCKS) * tris_per_block
+        return labels.merge_small(mesh, label, log_h, weight, least=least, width=LEAST_WIDTH * side)
+
     for _ in range(3):
-        label = labels.merge_small(mesh, label, log_h, weight, least=least, width=width)
+        label = merged(label)
         label = labels.smooth_borders(mesh, labels.finest_first(label, log_h), rounds=6)
         label = labels.finest_first(labels.connected(mesh, label), log_h)
-    label = labels.merge_small(mesh, label, log_h, weight, least=least, width=width)
-    label = labels.finest_first(label, log_h)
-    share = np.bincount(label, weight * is_zone) / np.bincount(label, weight)
-    return label, share > 0.5
+    label = labels.finest_first(merged(label), log_h)
+    return label, _zone_share(label, weight, is_zone) > 0.5
 
 
-def _plateaus(size: SizeField, plateau: float, persistence: float, least: float) -> Bools:
-    """Return the triangles of uniform zones: connected, flat, and of one size to the persistence.
-
-    A flat piece whose size drifts further is tried again with half and a quarter of the slope.
-    """
-    mesh, log_h = size.mesh, np.log(size.triangle_h)
-    slope = smooth_gradient(mesh, gradient(mesh, size.log_h), 1.5 * size.triangle_h)
-    steepness = np.linalg.norm(slope[mesh.triangles].mean(axis=1), axis=1) * size.triangle_h
-    is_zone = np.zeros(mesh.n_triangles, dtype=bool)
-    for limit in (plateau, plateau / 2, plateau / 4):
-        is_flat = (steepness < limit) & ~is_zone
-        piece = labels.connected(mesh, is_flat.astype(np.int64))
-        is_large = np.bincount(piece, size.triangle_weights) >= least
-        is_level = _spread(piece, log_h) < 2 * persistence
-        is_zone |= is_flat & (is_large & is_level)[piece]
-    return is_zone
+def _zone_share(label: Ints, weight: Floats, is_zone: Bools) -> Floats:
+    """Return the share of each region that lies in uniform zones, (n_regions,)."""
+    n = int(label.max()) + 1
+    return sums_by(label, weight * is_zone, n) / sums_by(label, weight, n)
 
 
 def _monotone_cells(mesh: Mesh, log_h: Floats, persistence: float) -> Ints:
@@ -79,11 +65,3 @@ def _monotone_cells(mesh: Mesh, log_h: Floats, persistence: float) -> Ints:
     low = mesh.triangles[corners, np.argmin(log_h[mesh.triangles], axis=1)]
     high = mesh.triangles[corners, np.argmax(log_h[mesh.triangles], axis=1)]
     return labels.compact(finest[low], coarsest[high])
-
-
-def _spread(label: Ints, log_h: Floats) -> Floats:
-    n = int(label.max()) + 1
-    count = np.bincount(label, minlength=n)
-    mean = np.bincount(label, log_h, n) / count
-    variance = np.bincount(label, (log_h - mean[label]) ** 2, n) / count
-    return np.sqrt(12 * variance)  # the width of a uniform distribution of this variance

@@ -12,9 +12,9 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import Floats, Ints, sums_by
-from ..mesh.operators import gradient
+from ..mesh.operators import gradient, to_vertices
 from .field import SizeField
-from .smoothing import smooth_gradient
+from .smoothing import diffuse
 
 REACH = 3.0
 """Smoothing length of the gradient in local sizes: the noise of one region is then 0.05 to 0.1 charges."""
@@ -30,7 +30,7 @@ def edge_fluxes(size: SizeField, *, reach: float = REACH) -> Floats:
     triangles of an edge have opposite values.
     """
     mesh = size.mesh
-    slope = smooth_gradient(mesh, gradient(mesh, size.log_h), reach * size.triangle_h)
+    slope = smooth_slope(size, reach)
     start, end = mesh.triangles, np.roll(mesh.triangles, -1, axis=1)
     along = mesh.points[end] - mesh.points[start]
     if mesh.is_planar:
@@ -42,6 +42,19 @@ def edge_fluxes(size: SizeField, *, reach: float = REACH) -> Floats:
         outward = np.cross(along, normal[:, None, :])
     flux = np.einsum("tci,tci->tc", outward, (slope[start] + slope[end]) / 2)
     return np.asarray(-3 / np.pi * flux)
+
+
+def smooth_slope(size: SizeField, reach: float) -> Floats:
+    """Return grad(log h) at the vertices, averaged over reach local sizes, (n_points, 2 or 3), 1/length.
+
+    What is averaged is grad(h) = h grad(log h), which is constant where h grows linearly from a wall, and
+    what the average loses is averaged once more and added: one-sided means at the walls then cost little.
+    """
+    mesh, h = size.mesh, size.triangle_h
+    growth = to_vertices(mesh, gradient(mesh, size.log_h) * h[:, None])
+    once = diffuse(mesh, growth, reach * h)
+    twice = once + diffuse(mesh, growth - once, reach * h)
+    return np.asarray(twice / size.h[:, None])
 
 
 def region_charges(label: Ints, fluxes: Floats) -> Floats:

@@ -85,10 +85,12 @@ def write(
     version: float,
     edges_per_curve: dict[int, int] | None = None,
     size_array: str | None = None,
+    along: Size | None = None,
 ) -> float:
     """Mesh the surfaces to the size function and write MSH of the version, with named physical groups.
 
-    Curves in edges_per_curve get exactly so many edges. A size_array writes the size of each point under
+    Curves in edges_per_curve get exactly so many edges. The mesh is calibrated along a coordinate of the
+    case, by default the logarithm of the size. A size_array writes the size of each point under
     that name. Returns the triangles that the size function asks for, sum of A / (sqrt(3)/4 h**2).
     """
     gmsh.model.geo.synchronize()
@@ -97,7 +99,7 @@ def write(
     gmsh.model.addPhysicalGroup(2, surfaces, name="domain")
     for curve, n_edges in (edges_per_curve or {}).items():
         gmsh.model.mesh.setTransfiniteCurve(curve, n_edges + 1)
-    generate_calibrated(surfaces, size)
+    generate_calibrated(surfaces, size, along or (lambda x, y: float(np.log(size(x, y)))))
     gmsh.option.setNumber("Mesh.MshFileVersion", version)
     gmsh.write(str(path))
     tags, points = mesh_points()
@@ -106,53 +108,53 @@ def write(
         values = np.array([size(x, y) for x, y in points])
         gmsh.view.addHomogeneousModelData(view, 0, "case", "NodeData", tags, values)
         gmsh.view.write(view, str(path), append=True)
-    return float(sum(wanted_weights(tag, size)[1].sum() for tag in surfaces))
+    return float(sum(wanted_weights(tag, size, size)[1].sum() for tag in surfaces))
 
 
-def generate_calibrated(surfaces: Sequence[int], size: Size, *, n_passes: int = 4) -> None:
-    """Mesh to a multiple of the size such that triangles of every size come in the number asked for.
+def generate_calibrated(surfaces: Sequence[int], size: Size, along: Size, *, n_passes: int = 5) -> None:
+    """Mesh to a multiple of the size such that the triangles asked for are there, all along a coordinate.
 
     gmsh makes edges 3 to 12 % shorter than asked, most where the size grows; the multiple, a function of
-    the size on each surface, makes up for it.
+    the coordinate on each surface, makes up for it.
     """
-    steps = {tag: Calibration() for tag in surfaces}
-    for _ in range(n_passes):
+    multiples = {tag: Multiple() for tag in surfaces}
+
+    def asked(dim: int, tag: int, x: float, y: float, _z: float, _size: float) -> float:
+        return size(x, y) * (multiples[tag](along(x, y)) if dim == 2 else 1.0)
+
+    for turn in range(n_passes):
         gmsh.model.mesh.clear()
-        gmsh.model.mesh.setSizeCallback(
-            lambda dim, tag, x, y, _z, _h: steps[tag](size(x, y)) if dim == 2 else size(x, y)
-        )
+        gmsh.model.mesh.setSizeCallback(asked)
         gmsh.model.mesh.generate(2)
         gmsh.model.mesh.removeSizeCallback()
-        for tag in surfaces:
-            steps[tag].update(*wanted_weights(tag, size))
+        if turn + 1 < n_passes:
+            for tag in surfaces:
+                multiples[tag].correct(*wanted_weights(tag, size, along))
 
 
-class Calibration:
-    """A multiple of the size, piecewise linear in its logarithm."""
+class Multiple:
+    """A multiple of the size, its logarithm piecewise linear in a coordinate."""
 
     def __init__(self) -> None:
-        self.log_sizes: Floats = np.zeros(1)
-        self.log_factors: Floats = np.zeros(1)
+        self.stations: Floats = np.zeros(1)
+        self.logs: Floats = np.zeros(1)
 
-    def __call__(self, size: float) -> float:
-        """Return the size to ask of gmsh for this size."""
-        return size * float(np.exp(np.interp(np.log(size), self.log_sizes, self.log_factors)))
+    def __call__(self, coordinate: float) -> float:
+        """Return the multiple at a value of the coordinate."""
+        return float(np.exp(np.interp(coordinate, self.stations, self.logs)))
 
-    def update(self, sizes: Floats, weights: Floats) -> None:
-        """Correct by the triangles of a mesh: their sizes and the triangles asked for in each, (n,)."""
-        logs = np.log(sizes)
-        n_bins = int(np.clip(np.ptp(logs) / 0.3, 1, min(12, len(sizes) // 25 + 1)))
-        bins = np.minimum(((logs - logs.min()) / (np.ptp(logs) + 1e-12) * n_bins).astype(int), n_bins - 1)
-        count = np.bincount(bins, minlength=n_bins)
-        centres = logs.min() + (np.arange(n_bins) + 0.5) * np.ptp(logs) / n_bins
-        correction = np.log(count / np.maximum(np.bincount(bins, weights, n_bins), 1e-9)) / 2
-        correction = np.clip(np.where(count > 8, correction, 0.0), -0.15, 0.15)
-        self.log_factors = correction + np.interp(centres, self.log_sizes, self.log_factors)
-        self.log_sizes = centres
+    def correct(self, coordinates: Floats, weights: Floats) -> None:
+        """Correct by the triangles of a mesh: their coordinates and the triangles asked for in each, (n,)."""
+        n_bins = int(np.clip(len(weights) // 20, 1, 12))
+        parts = np.array_split(np.argsort(coordinates, kind="stable"), n_bins)
+        stations = np.array([coordinates[part].mean() for part in parts])
+        excess = np.array([np.log(len(part) / weights[part].sum()) / 2 for part in parts])
+        self.logs = np.interp(stations, self.stations, self.logs) + np.clip(0.8 * excess, -0.15, 0.15)
+        self.stations = stations
 
 
-def wanted_weights(tag: int, size: Size) -> tuple[Floats, Floats]:
-    """Return the size at each triangle of a surface and the triangles asked for there, (n,) each.
+def wanted_weights(tag: int, size: Size, along: Size) -> tuple[Floats, Floats]:
+    """Return the coordinate of each triangle of a surface and the triangles asked for there, (n,) each.
 
     A / (sqrt(3)/4 h**2) is 1 where a triangle has the size asked for.
     """
@@ -160,8 +162,10 @@ def wanted_weights(tag: int, size: Size) -> tuple[Floats, Floats]:
     nodes = gmsh.model.mesh.getElementsByType(2, tag)[1].reshape(-1, 3)
     corners = points[np.searchsorted(tags, nodes)]
     (x1, y1), (x2, y2) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
-    h = np.array([size(x, y) for x, y in corners.mean(axis=1)])
-    return h, np.abs(x1 * y2 - x2 * y1) / 2 / (np.sqrt(3) / 4 * h**2)
+    centres = corners.mean(axis=1)
+    h = np.array([size(x, y) for x, y in centres])
+    weights = np.abs(x1 * y2 - x2 * y1) / 2 / (np.sqrt(3) / 4 * h**2)
+    return np.array([along(x, y) for x, y in centres]), weights
 
 
 def mesh_points() -> tuple[NDArray[np.uint64], Floats]:

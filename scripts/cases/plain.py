@@ -12,7 +12,7 @@ from .drawing import circle, closed_spline, polyline, surface, write
 
 PAPER_FINE, PAPER_COARSE = 28, 4
 """Elements on the fine and on the coarse front of the paper's region (Section 4)."""
-FINE_END, TRANSITION, COARSE_END = 0.3, 0.66, 1.0
+FINE_END, TRANSITION, COARSE_END = 0.3, 0.66, 2.0
 """Lengths of the three parts of the rectangle, in heights."""
 
 
@@ -33,8 +33,17 @@ def rectangle(path: Path) -> float:
         return float(PAPER_FINE ** (progress - 1) / PAPER_COARSE**progress)
 
     counts = dict(zip(walls, (PAPER_FINE, PAPER_FINE, PAPER_COARSE, PAPER_COARSE), strict=True))
+    counts |= {curve: round(COARSE_END * PAPER_COARSE) for curve in (floors[2], roofs[2])}
     sides = {"left": walls[:1], "right": walls[3:], "walls": [*floors, *roofs]}
-    return write(path, size, surfaces=parts, boundaries=sides, version=2.2, edges_per_curve=counts)
+    return write(
+        path,
+        size,
+        surfaces=parts,
+        boundaries=sides,
+        version=2.2,
+        edges_per_curve=counts,
+        along=lambda x, _y: x,
+    )
 
 
 def square(path: Path) -> float:

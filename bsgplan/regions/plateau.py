@@ -1,0 +1,61 @@
+"""Find the plateaus of a size field: connected pieces where the size hardly changes.
+
+Produces a mask of triangles. A plateau ends where the size begins to change, also in a short or blurred
+one: the slope counts as small where it is small at all, or small beside the slope two edges away.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..arrays import Bools, Floats, Ints, sums_by
+from ..mesh import Mesh
+from ..mesh.operators import gradient
+from ..sizing import SizeField
+from ..sizing.smoothing import smooth_gradient
+from . import labels
+
+PLATEAU = 0.05
+"""Default |grad h| under which the size counts as constant: 5 % from one element to the next."""
+
+DROP = 0.4
+"""A slope under this share of the slope two edges away is the blurred edge of a plateau: a mesh generator
+needs an edge or two to stop growing. Where log h is linear the share is e^(-2 |grad h|), above 0.4 up to
+|grad h| = 0.46; steeper fields are kept whole by the bound on the spread of a zone."""
+
+
+def plateaus(size: SizeField, *, plateau: float, spread: float, least: float) -> Bools:
+    """Return the triangles of uniform zones, (n_triangles,).
+
+    A zone is connected, covers least triangles of its size, and spans less than spread in log size; a
+    piece whose size drifts further is tried again with half and a quarter of the slope.
+    """
+    mesh, log_h = size.mesh, np.log(size.triangle_h)
+    slope = smooth_gradient(mesh, gradient(mesh, size.log_h), size.triangle_h)
+    steepness = np.linalg.norm(slope, axis=1) * size.h
+    beside = _largest_beside(mesh, _largest_beside(mesh, steepness))
+    is_zone = np.zeros(mesh.n_triangles, dtype=bool)
+    for share in (1.0, 0.5, 0.25):
+        is_low = (steepness < share * plateau) | (steepness < share * DROP * beside)
+        is_flat = (np.count_nonzero(is_low[mesh.triangles], axis=1) >= 2) & ~is_zone
+        piece = labels.connected(mesh, is_flat.astype(np.int64))
+        is_large = sums_by(piece, size.triangle_weights, int(piece.max()) + 1) >= least
+        is_zone |= is_flat & (is_large & (_spread(piece, log_h) < spread))[piece]
+    return is_zone
+
+
+def _largest_beside(mesh: Mesh, values: Floats) -> Floats:
+    """Return the largest value at each vertex and its neighbours, (n_points,)."""
+    i, j = mesh.topology.edges.T
+    result = values.copy()
+    np.maximum.at(result, i, values[j])
+    np.maximum.at(result, j, values[i])
+    return result
+
+
+def _spread(label: Ints, log_h: Floats) -> Floats:
+    """Return the span of log size of each label, (n,): of a uniform distribution of the same variance."""
+    n = int(label.max()) + 1
+    count = np.bincount(label, minlength=n)
+    mean = sums_by(label, log_h, n) / count
+    return np.sqrt(12 * sums_by(label, (log_h - mean[label]) ** 2, n) / count)
