@@ -84,7 +84,7 @@ def check_shapes(points: Floats, triangles: Ints) -> None:
         raise InvalidMesh(
             _first(is_bad, triangles, f"an index outside 0 .. {len(points) - 1}", "repair the file")
         )
-    is_bad = ~np.isfinite(points).all(axis=1)
+    is_bad = np.asarray(~np.isfinite(points).all(axis=1))
     if is_bad.any():
         where = np.flatnonzero(is_bad)
         raise InvalidMesh(

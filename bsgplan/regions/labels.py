@@ -75,7 +75,7 @@ def smooth_borders(mesh: Mesh, label: Ints, *, rounds: int) -> Ints:
 
 
 def merge_small(
-    mesh: Mesh, label: Ints, log_h: Floats, weight: Floats, *, least: float, width: float
+    mesh: Mesh, label: Ints, log_h: Floats, weight: Floats, *, least: Floats, width: float
 ) -> Ints:
     """Return labels where no region is under its least triangles or width layers thick, (n_triangles,).
 
