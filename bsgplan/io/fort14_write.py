@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import contextlib
 import os
-import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -12,6 +10,7 @@ import numpy as np
 
 from ..arrays import Floats
 from ..errors import OutputError
+from .atomic import replacing
 from .boundary import Boundary, n_nodes
 from .file import MeshFile
 
@@ -29,27 +28,8 @@ def write_fort14(path: str | os.PathLike[str], mesh_file: MeshFile) -> None:
         )
     if not mesh_file.mesh.is_planar:
         raise OutputError(f"{target}: the mesh is a surface in space, a fort.14 is planar; write VTK instead")
-    try:
-        _replace(target, _lines(mesh_file))
-    except OSError as error:
-        raise OutputError(
-            f"{target}: cannot be written ({error.strerror or error}); check the folder"
-        ) from None
-
-
-def _replace(target: Path, lines: Iterator[str]) -> None:
-    handle, temporary = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as stream:
-            stream.writelines(line + "\n" for line in lines)
-        umask = os.umask(0)
-        os.umask(umask)
-        Path(temporary).chmod(0o666 & ~umask)
-        Path(temporary).replace(target)
-    except BaseException:
-        with contextlib.suppress(OSError):
-            Path(temporary).unlink()
-        raise
+    with replacing(target) as temporary, temporary.open("w", encoding="utf-8", newline="\n") as stream:
+        stream.writelines(line + "\n" for line in _lines(mesh_file))
 
 
 def _lines(mesh_file: MeshFile) -> Iterator[str]:
