@@ -55,6 +55,8 @@ def fit_edges(mesh: Mesh, edge_values: Floats, reach: float) -> Floats:
     With 3 edges a vertex in 3 directions the squared jumps sum to 3/8 (h^2 u_xx)^2 a vertex, and the fit
     weighs 3 a vertex: hence 8 reach^4 on the jumps, so that waves of h / reach are halved.
     """
+    level = edge_values.mean()  # taken out, as the solver's tolerance is relative: units do not matter
+    edge_values = edge_values - level
     i, j = mesh.topology.edges.T
     n = mesh.n_points
     degree = mesh.topology.valence
@@ -64,13 +66,14 @@ def fit_edges(mesh: Mesh, edge_values: Floats, reach: float) -> Floats:
     weights = np.concatenate([np.full(2 * len(i), 0.25), degree / 4])
     normal = csr_array((weights, (rows, columns)), shape=(n, n))
     right = (np.bincount(i, edge_values, n) + np.bincount(j, edge_values, n)) / 2
-    return _regularised(mesh, normal, right, start, reach)
+    return level + _regularised(mesh, normal, right, start, reach)
 
 
 def smooth(mesh: Mesh, values: Floats, reach: float) -> Floats:
     """Return vertex values smoothed over reach local edge lengths, (n_points,), linear fields unchanged."""
     identity = csr_array(_diagonal(np.full(mesh.n_points, 3.0)))
-    return _regularised(mesh, identity, 3 * values, values, reach)
+    level = values.mean()  # see `fit_edges`
+    return level + _regularised(mesh, identity, 3 * (values - level), values - level, reach)
 
 
 def diffuse(mesh: Mesh, values: Floats, length: Floats) -> Floats:
