@@ -14,6 +14,9 @@ from .atomic import replacing
 FORMATS = {".vtu": "vtu", ".vtk": "vtk"}
 """Suffixes that are written, and what meshio calls them."""
 
+EMPTY_FORMATS = {"vtu": "vtu", "vtk": "vtk42"}
+"""The same for a file without cells: meshio cannot write an empty legacy file of version 5."""
+
 
 def check_suffix(path: str | os.PathLike[str]) -> str:
     """Return what meshio calls the format of this suffix; raise InvalidOption for an unknown one."""
@@ -36,7 +39,7 @@ def write_cells(
     """Write cells by type with their arrays, binary and compressed; nothing is left of a failed write."""
     import meshio
 
-    file_format = check_suffix(path)
+    file_format = check_suffix(path) if len(points) else EMPTY_FORMATS[check_suffix(path)]
     kept = [k for k, (_, corners) in enumerate(cells) if len(corners)] or [0]
     flat = np.zeros((len(points), 3 - points.shape[1]))
     mesh = meshio.Mesh(

@@ -54,7 +54,8 @@ class Picture:
         return np.ptp(self.points[:, :2], axis=0)
 
 
-NOTHING = Picture(-1, np.empty((0, 3)), np.empty((0, 3), int), *[np.empty(0, int)] * 2, np.empty(0))
+NONE = np.empty(0, dtype=np.int64)
+NOTHING = Picture(-1, np.empty((0, 3)), np.empty((0, 3), dtype=np.int64), NONE, NONE, np.empty(0))
 """The picture of a plan without patterns."""
 
 
