@@ -60,13 +60,12 @@ def block_counts(profile: Profile, side: float, n_strips: int) -> Floats:
 def misfit(counts: tuple[int, ...], profile: Profile, side: float) -> float:
     """Return the rms of ln(block edge / wanted edge), 0 for a pattern that follows the size field.
 
-    Edges along the fronts have ln(t_k / f_k), edges across all strips ln(layers / (s K)); each front weighs
-    as its count, and across weighs as much as along.
+    Edges along the fronts have ln(t_k / f_k), edges across all strips ln(layers / (s K)); fronts weigh the
+    same, for the two at the ends must meet their neighbours, and across weighs as much as along.
     """
     n_strips = len(counts) - 1
     wanted = block_counts(profile, side, n_strips)
-    weight = np.asarray(counts, dtype=np.float64)
-    along = (weight * np.log(wanted / weight) ** 2).sum() / weight.sum()
+    along = (np.log(wanted / np.asarray(counts)) ** 2).mean()
     across = np.log(profile.layers / (side * n_strips)) ** 2
     return float(np.sqrt((along + across) / 2))
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..arrays import Bools, Floats, Ints
+from ..arrays import Bools, Floats, Ints, sums_by
 from ..sizing import SizeField
 from ..sizing.charge import edge_fluxes, region_charges
 from .plateau import PLATEAU
@@ -22,6 +22,8 @@ def find_regions(
 ) -> Regions:
     """Return the monotone transition regions and uniform zones of a size field, as `segment` cuts them."""
     label, is_uniform = segment(size, tris_per_block=tris_per_block, persistence=persistence, plateau=plateau)
+    weight = sums_by(label, size.triangle_weights, len(is_uniform))
+    is_uniform = is_uniform | (weight < tris_per_block)  # a component smaller than a block is no transition
     return measure_regions(size, label, is_uniform, tris_per_block=tris_per_block, persistence=persistence)
 
 

@@ -76,7 +76,7 @@ def test_a_closed_pipe_is_quiet(tmp_path):
     reader, writer = os.pipe()
     os.close(reader)
     run = subprocess.run(
-        [sys.executable, "-m", "bsgplan.cli", "info", str(path), "--json"],
+        [sys.executable, "-m", "bsgplan", "info", str(path), "--json"],
         stdout=writer, stderr=subprocess.PIPE, check=False,
     )  # fmt: skip
     os.close(writer)

@@ -1,5 +1,0 @@
-"""`python -m bsgplan.cli` is `bsgplan`."""
-
-from .app import main
-
-raise SystemExit(main())

@@ -1,0 +1,198 @@
+"""`bsgplan estimate`: the plan of a mesh."""
+
+from __future__ import annotations
+
+import sys
+from math import isfinite, log
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+from cyclopts import Parameter
+
+from ..errors import InvalidOption
+
+if TYPE_CHECKING:
+    from ..io import MeshFile
+    from ..planning import Plan
+
+
+def estimate(
+    file: Path,
+    /,
+    *,
+    tris_per_block: str | None = None,
+    blocks: int | None = None,
+    objective: str = "balanced",
+    size: str | None = None,
+    lonlat: Annotated[bool, Parameter(negative=())] = False,
+    region: str | None = None,
+    persistence: float = 1.3,
+    plateau: float = 0.05,
+    gradient_limit: float = 0.6,
+    candidates: Annotated[bool, Parameter(negative=())] = False,
+    json: Annotated[bool, Parameter(negative=())] = False,
+    save: Path | None = None,
+    figure: Path | None = None,
+    vtk: Path | None = None,
+    vtk_patterns: Path | None = None,
+) -> None:
+    """Plan the blocks of a mesh: regions, patterns, blocks, quality and irregularity.
+
+    Parameters
+    ----------
+    file
+        The mesh file.
+    tris_per_block
+        Triangles per block, a square (default 16: two refinements), or several: 4,16,64.
+    blocks
+        Instead: the largest block that needs at most so many blocks.
+    objective
+        What patterns are chosen for: size, blocks, irregularity, quality or balanced.
+    size
+        A point or cell array of the file that holds the edge length wanted; default: the mesh's own edges.
+    lonlat
+        The coordinates are degrees of longitude and latitude: plan on a conformal map, give metres.
+    region
+        Plan one region only: "POLYGON((..))", x0,y0,x1,y1 or a GeoJSON file, in the file's coordinates.
+    persistence
+        Fine and coarse spots whose sizes differ by less than this ratio are noise.
+    plateau
+        Where |grad h| is under this the size counts as constant: a uniform zone.
+    gradient_limit
+        Bound on the gradient of the block size in the gradient-limited count.
+    candidates
+        Show the candidates of every region.
+    json
+        Write one JSON document instead of the tables.
+    save
+        Write the JSON document to this file too.
+    figure
+        Draw size field, regions, patterns and budget to this .png, .svg or .pdf.
+    vtk
+        Write the mesh with regions, sizes, front coordinate, charge and block fronts to this .vtu.
+    vtk_patterns
+        Write the chosen patterns as subdivided blocks to this .vtu.
+    """
+    sizes = block_sizes(tris_per_block, blocks)
+    check_options(objective, persistence, plateau, gradient_limit)
+    if len(sizes) > 1 and (figure or vtk or vtk_patterns):
+        raise InvalidOption(f"--figure and --vtk show one plan, not {len(sizes)}; give one block size")
+    polygon = _polygon(region)
+    from ..pipeline import plan_blocks
+    from .info import describe, open_mesh
+    from .output import check_writable
+    from .progress import stages
+
+    check_writable(save, figure, vtk, vtk_patterns)
+    with stages() as progress:
+        progress("reading")
+        mesh_file = open_mesh(file, is_lonlat=lonlat)
+        plans = plan_blocks(
+            mesh_file,
+            tris_per_block=sizes,
+            n_blocks=blocks,
+            size=size,
+            region=polygon,
+            objective=objective,
+            persistence=log(persistence),
+            plateau=plateau,
+            gradient_limit=gradient_limit,
+            progress=progress,
+        )
+        progress("writing")
+        document = _document(describe, mesh_file, plans) if json or save else {}
+        _write(mesh_file, plans[0], document, save, figure, vtk, vtk_patterns)
+    _print(plans, document if json else None, candidates=candidates)
+
+
+def block_sizes(text: str | None, n_blocks: int | None) -> tuple[int, ...]:
+    """Return the triangles per block of --tris-per-block, each a square; raises InvalidOption.
+
+    >>> block_sizes("4,16", None)
+    (4, 16)
+    """
+    from ..planning import check_block_size
+
+    if n_blocks is not None and text is not None:
+        raise InvalidOption("--blocks asks for what --tris-per-block gives; give one of the two")
+    if n_blocks is not None and n_blocks < 1:
+        raise InvalidOption(f"--blocks {n_blocks} is under 1; give the most blocks you accept")
+    sizes = []
+    for word in (text or "16").split(","):
+        try:
+            sizes.append(int(word))
+        except ValueError:
+            raise InvalidOption(
+                f"--tris-per-block {word.strip()!r} is no whole number; give a square, or several as 4,16"
+            ) from None
+        check_block_size(sizes[-1])
+    return tuple(dict.fromkeys(sizes))
+
+
+def check_options(objective: str, persistence: float, plateau: float, gradient_limit: float) -> None:
+    """Raise InvalidOption for a value that is wrong whatever the mesh."""
+    from ..planning import OBJECTIVES
+
+    if objective not in OBJECTIVES:
+        raise InvalidOption(f"--objective {objective!r} is unknown; choose one of {', '.join(OBJECTIVES)}")
+    for name, value, least, example in (
+        ("--persistence", persistence, 1.0, "1.3"),
+        ("--plateau", plateau, 0.0, "0.05"),
+        ("--gradient-limit", gradient_limit, 0.0, "0.6"),
+    ):
+        if not (isfinite(value) and value > least):
+            raise InvalidOption(f"{name} {value:g} is not above {least:g}; give for example {example}")
+
+
+def _polygon(region: str | None) -> Any:
+    if region is None:
+        return None
+    from ..regions.selection import parse_region
+
+    return parse_region(region)
+
+
+def _document(describe: Any, mesh_file: MeshFile, plans: tuple[Plan, ...]) -> dict[str, Any]:
+    from ..report.plan_document import estimate_document
+
+    mesh, projection = plans[0].regions.size.mesh, mesh_file.projection
+    scale = None if projection is None else projection.scale(mesh.points)
+    return estimate_document(describe(mesh_file), plans, scale=scale)
+
+
+def _write(
+    mesh_file: MeshFile,
+    plan: Plan,
+    document: dict[str, Any],
+    save: Path | None,
+    figure: Path | None,
+    vtk: Path | None,
+    vtk_patterns: Path | None,
+) -> None:
+    from .output import dumps, write_text
+
+    projection = mesh_file.projection
+    if vtk or vtk_patterns:
+        from ..io.vtk import write_patterns, write_plan
+
+        if vtk:
+            write_plan(vtk, plan, projection)
+        if vtk_patterns:
+            write_patterns(vtk_patterns, plan, projection)
+    if figure:
+        from ..report.figure import figure as draw
+        from ..report.figure import save_figure
+
+        save_figure(draw(plan, projection=projection, name=Path(mesh_file.path).name), figure)
+    if save:
+        write_text(save, dumps(document))
+
+
+def _print(plans: tuple[Plan, ...], document: dict[str, Any] | None, *, candidates: bool) -> None:
+    from ..report.plan_tables import block_sizes_table, tables
+    from .output import dumps, show
+
+    if document is not None:
+        sys.stdout.write(dumps(document))
+        return
+    show([block_sizes_table(plans)] if len(plans) > 1 else tables(plans[0], all_candidates=candidates))

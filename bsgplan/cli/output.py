@@ -1,0 +1,57 @@
+"""What a command prints and writes: documents, tables, and files that appear whole or not at all."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..errors import OutputError
+
+if TYPE_CHECKING:
+    from ..report import Table
+
+
+def dumps(document: dict[str, Any]) -> str:
+    """Return a document as JSON text that ends with a newline; numbers are finite."""
+    return json.dumps(document, indent=2, allow_nan=False) + "\n"
+
+
+def show(tables: Sequence[Table]) -> None:
+    """Print tables: as plain text when piped or with NO_COLOR, with rich on a terminal."""
+    from ..report.table import rich_table, text
+
+    if sys.stdout.isatty() and not os.environ.get("NO_COLOR"):
+        from rich.console import Console
+
+        console = Console()
+        if console.width >= max(len(line) for table in tables for line in text(table).splitlines()[:3]):
+            for table in tables:
+                console.print(rich_table(table))
+            return
+    sys.stdout.write("\n\n".join(text(table) for table in tables) + "\n")
+
+
+def check_writable(*paths: Path | None) -> None:
+    """Raise OutputError for the first path that cannot be written, before any work is done."""
+    for path in paths:
+        if path is None:
+            continue
+        folder = path.parent
+        if path.is_dir():
+            raise OutputError(f"{path}: is a folder; give a file name")
+        if not folder.is_dir():
+            raise OutputError(f"{path}: the folder {folder} does not exist; create it first")
+        if not os.access(folder, os.W_OK):
+            raise OutputError(f"{path}: the folder {folder} is not writable; choose another")
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write text to a file, whole or not at all; raises OutputError."""
+    from ..io.atomic import replacing
+
+    with replacing(path) as temporary:
+        temporary.write_text(text, encoding="utf-8")

@@ -1,0 +1,110 @@
+"""The whole flow in ten lines: what the command line and a notebook call."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+import shapely
+from shapely.geometry.base import BaseGeometry
+
+from .errors import MeshReadError
+from .io import MeshFile
+from .mesh import clean
+from .planning import Plan, check_block_size, estimate
+from .planning.inverse import coarsest
+from .planning.totals import GRADIENT_LIMIT
+from .regions import Regions, find_regions, measure_regions
+from .regions.labels import connected
+from .regions.plateau import PLATEAU
+from .regions.segmentation import PERSISTENCE
+from .regions.selection import triangles_inside
+from .sizing import SizeField, named_size_field, size_field
+
+
+def plan_blocks(
+    mesh_file: MeshFile,
+    *,
+    tris_per_block: int | Sequence[int] = 16,
+    n_blocks: int | None = None,
+    size: str | None = None,
+    region: BaseGeometry | None = None,
+    objective: str = "balanced",
+    persistence: float = PERSISTENCE,
+    plateau: float = PLATEAU,
+    gradient_limit: float = GRADIENT_LIMIT,
+    progress: Callable[[str], None] = lambda _: None,
+) -> tuple[Plan, ...]:
+    """Return the plans of a mesh file, one a block size; with n_blocks the coarsest that needs no more.
+
+    size names a point or cell array; region is a polygon in the coordinates of the file, cut out first.
+    Raises what its steps raise; see `estimate`, `find_regions` and `coarsest`.
+    """
+    sizes = (tris_per_block,) if isinstance(tris_per_block, int) else tuple(tris_per_block)
+    for n in sizes:
+        check_block_size(n)
+    cut = mesh_file if region is None else cut_out(mesh_file, region)
+    progress("measuring sizes")
+    field = size_of(cut, size)
+
+    @lru_cache(maxsize=1)
+    def whole() -> Regions:
+        label = connected(field.mesh, np.zeros(field.mesh.n_triangles, dtype=np.int64))
+        return measure_regions(field, label, np.zeros(int(label.max()) + 1, dtype=bool))
+
+    def plan_at(n: int) -> Plan:
+        progress(f"planning with {n} triangles per block")
+        if region is not None:
+            regions = whole()
+        else:
+            regions = find_regions(field, tris_per_block=n, persistence=persistence, plateau=plateau)
+        return estimate(regions, tris_per_block=n, objective=objective, gradient_limit=gradient_limit)
+
+    if n_blocks is not None:
+        return (coarsest(plan_at, n_blocks),)
+    return tuple(plan_at(n) for n in sizes)
+
+
+def size_of(mesh_file: MeshFile, name: str | None) -> SizeField:
+    """Return the size field of a mesh file: its own edges, or the array of that name.
+
+    An array of a projected mesh is in true metres. Raises MeshReadError where there is no such array.
+    """
+    mesh = mesh_file.mesh
+    if name is None:
+        return size_field(mesh)
+    arrays = {**mesh_file.cell_data, **mesh_file.point_data}
+    if name not in arrays:
+        there = ", ".join(sorted(arrays)) or "none"
+        raise MeshReadError(f"{mesh_file.path}: no array {name!r} for --size; the file's arrays: {there}")
+    values = np.asarray(arrays[name], dtype=np.float64)
+    if mesh_file.projection is not None and values.shape in {(mesh.n_points,), (mesh.n_triangles,)}:
+        where = mesh.points if name in mesh_file.point_data else mesh.centroids
+        values = values * mesh_file.projection.scale(where)
+    return named_size_field(mesh, values, name)
+
+
+def cut_out(mesh_file: MeshFile, region: BaseGeometry) -> MeshFile:
+    """Return the triangles of a mesh file whose centroid lies in a polygon, with their data.
+
+    The polygon is in the coordinates of the file, degrees where the mesh was projected from degrees.
+    """
+    if mesh_file.projection is not None:
+        to_plane = mesh_file.projection.to_plane
+        x0, y0, x1, y1 = region.bounds
+        fine = shapely.segmentize(region, max(x1 - x0, y1 - y0) / 50)  # straight in degrees, not in the plane
+        region = shapely.transform(fine, to_plane)
+    inside = triangles_inside(mesh_file.mesh, region)
+    cleaned = clean(mesh_file.mesh.points, mesh_file.mesh.triangles[inside])
+    kept = cleaned.kept_points
+    return replace(
+        mesh_file,
+        mesh=cleaned.mesh,
+        quads=np.empty((0, 4), dtype=np.int64),
+        quad_points=np.empty((0, 2)),
+        point_data={name: values[kept] for name, values in mesh_file.point_data.items()},
+        cell_data={name: values[inside] for name, values in mesh_file.cell_data.items()},
+        boundaries=(),
+    )
