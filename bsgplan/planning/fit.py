@@ -19,11 +19,14 @@ from ..regions import Profile
 TOLERANCE = 0.15
 """Misfit of a count in log size that costs as much as one irregular vertex at price 1."""
 
+WINDOW = 0.12
+"""Share of a wanted count by which the integers tried may differ from it; at least 1, at most 8."""
+
 PRICES = (0.0, 0.3, 2.0)
 """Prices of an irregular vertex that are tried."""
 
-STEEP = 4.0
-"""Cost of a strip that halves its count too fast, per unit of ratio beyond 2 (3:1 caps q_min at .5)."""
+STEEP = 100.0
+"""Cost per unit of ratio beyond 2 of a strip: 3:1 caps q_min at .5, so it is taken where nothing else is."""
 
 
 def sequences(profile: Profile, side: float, *, least: int = 1) -> list[tuple[int, ...]]:
@@ -97,10 +100,9 @@ def _best_sequence(wanted: Floats, price: float, least: int) -> tuple[int, ...]:
 
 
 def _choices(wanted: float, least: int) -> Ints:
-    reach = int(np.clip(np.ceil(0.12 * wanted), 1, 8))
-    return np.arange(
-        max(least, int(np.floor(wanted)) - reach + 1), max(least, int(np.ceil(wanted)) + reach - 1) + 1
-    )
+    reach = int(np.clip(np.ceil(WINDOW * wanted), 1, 8))
+    low, high = int(np.floor(wanted)) - reach, int(np.ceil(wanted)) + reach
+    return np.arange(max(least, low), max(least, high) + 1)
 
 
 def _strip_cost(first: Ints, second: Ints) -> Floats:

@@ -9,7 +9,13 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import Floats, Ints, frozen_ints, sums_by
+from .profile import Profile
 from .region import TRANSITION, Regions
+
+
+def front_levels(profile: Profile, n_fronts: int) -> Floats:
+    """Return the log sizes of the fronts of a pattern, (n_fronts,): front k of n layers at depth k layers / n."""
+    return profile.levels_at(np.linspace(0.0, profile.layers, n_fronts))
 
 
 def front_lines(regions: Regions, region_id: int, levels: Floats) -> tuple[Floats, Ints]:

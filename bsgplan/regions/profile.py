@@ -26,12 +26,22 @@ MOST_BINS = 48
 """More bins than this add noise and no shape: patterns have fewer fronts."""
 
 
+LEAST_COUNT = 1e-3
+"""A front is given this many elements at least: in a region of one size no contour has a length."""
+
+TINY = np.finfo(np.float64).tiny
+"""The least length of a front: positive."""
+
 LEAST_SPAN = 1e-9
 """A region of one size is given this span of log size, so that its bins are not empty."""
 
 MOST_TREND = 0.3
-"""The length of a front is continued to the end of its region by a factor of e^0.3 at most."""
+"""The ends of a region are corrected by a factor of e^0.3 at most, in size and in the length of fronts."""
 
+
+MOST_GROWTH = 1.15
+"""The front at an end is at most this many times as long as the longer of the two bins there: noise may
+hide so much of it, but a tip that is really pointed stays pointed."""
 
 NEARLY_FULL = 0.8
 """A front with this share of the highest count ends the ragged part of a fine end."""
@@ -111,18 +121,21 @@ def _profile(edges: Floats, weight: Floats, front: Floats, length: Floats) -> Pr
     """Return the profile of one region from the sums over its bins of log size.
 
     The sums are integrals over a bin: weight of triangles, front of f du, length of L du. Noise smears the
-    two ends of a region over levels that hardly occur; such an end bin is shortened until its front is as
-    long as the fronts beside it, which keeps its sums.
+    two ends of a region over levels that hardly occur; such an end bin is shortened, by e^0.3 in size at
+    most, until its front is as long as the fronts beside it, which keeps its sums.
     """
     edges, lengths = edges.copy(), length / np.diff(edges)
     ends = np.empty(2)
-    for side, inner in ((0, slice(1, 7)), (-1, slice(-7, -1))):
+    for side, inner, inner_edge in ((0, slice(1, 7), edges[1]), (-1, slice(-7, -1), edges[-2])):
         ends[side] = _end_length(edges, lengths, side, inner)
-        if lengths[side] < ends[side]:
-            kept = length[side] / ends[side]
-            edges[side] = edges[1] - kept if side == 0 else edges[-2] + kept
+        kept, span = length[side] / ends[side], abs(edges[side] - inner_edge)
+        if kept < span <= kept + MOST_TREND:
+            edges[side] = inner_edge - kept if side == 0 else inner_edge + kept
+        else:
+            ends[side] = lengths[side]
     step = np.diff(edges)
-    weight, counts, lengths = _absorb_ragged_end(weight, front / step, length / step)
+    counts = np.maximum(front / step, LEAST_COUNT)
+    weight, counts, lengths = _absorb_ragged_end(weight, counts, np.maximum(length / step, TINY))
     n_absorbed = len(step) - len(counts)
     edges = np.concatenate([edges[:1], edges[1 + n_absorbed :]])
     layers = weight / (2 * counts)
@@ -165,7 +178,8 @@ def _end_length(edges: Floats, lengths: Floats, side: int, inner: slice) -> floa
     trend = np.polyfit(middle - middle.mean(), logs, 1)[0]
     reach = edges[1] if side == 0 else edges[-2]
     trend = np.clip(trend * (reach - middle.mean()), -MOST_TREND, MOST_TREND)
-    return float(np.exp(np.median(logs) + trend))
+    beside = lengths[:2] if side == 0 else lengths[-2:]
+    return float(min(np.exp(np.median(logs) + trend), MOST_GROWTH * beside.max()))
 
 
 def _stations(thickness: Floats) -> Floats:
