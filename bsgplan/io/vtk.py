@@ -16,7 +16,7 @@ import numpy as np
 
 from ..arrays import Floats, Ints
 from ..planning import Plan
-from ..regions.contours import front_coordinate, front_lines, vertex_charges
+from ..regions.contours import front_coordinate, front_levels, front_lines, vertex_charges
 from ..regions.region import TRANSITION
 from .projection import Projection
 from .vtk_cells import check_suffix, write_cells
@@ -95,8 +95,8 @@ def plan_front_lines(plan: Plan) -> FrontLines:
         if region_plan.chosen is None:
             continue
         profile = region_plan.region.profile
-        depths = np.linspace(0.0, profile.layers, region_plan.chosen.pattern.n_fronts)
-        levels = profile.levels_at(depths)
+        n_fronts = region_plan.chosen.pattern.n_fronts
+        levels, depths = front_levels(profile, n_fronts), np.linspace(0.0, profile.layers, n_fronts)
         found, index = front_lines(plan.regions, k, levels)
         segments.append(found)
         region.append(np.full(len(index), k))

@@ -14,7 +14,7 @@ from .region import TRANSITION, Regions
 
 
 def front_levels(profile: Profile, n_fronts: int) -> Floats:
-    """Return the log sizes of the fronts of a pattern, (n_fronts,): front k of n layers at depth k layers / n."""
+    """Return the log sizes of a pattern's fronts, (n_fronts,): front k of n at depth k layers / (n - 1)."""
     return profile.levels_at(np.linspace(0.0, profile.layers, n_fronts))
 
 
