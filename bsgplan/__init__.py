@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from .pipeline import plan_blocks
     from .planning import Plan, estimate
     from .regions import Regions, find_regions
+    from .result import PlannedMesh
     from .sizing import SizeField, named_size_field, size_field
 
 _HOMES = {
@@ -32,6 +33,7 @@ _HOMES = {
     "bounds": "patterns",
     "plan_blocks": "pipeline",
     "Plan": "planning",
+    "PlannedMesh": "result",
     "estimate": "planning",
     "Regions": "regions",
     "find_regions": "regions",
@@ -45,6 +47,7 @@ __all__ = [
     "MeshFile",
     "Pattern",
     "Plan",
+    "PlannedMesh",
     "Regions",
     "Shape",
     "SizeField",

@@ -1,4 +1,11 @@
-"""The whole flow in ten lines: what the command line and a notebook call."""
+"""The whole flow in ten lines: what the command line and a notebook call.
+
+>>> import bsgplan
+>>> mesh_file = bsgplan.read("cases/square/mesh.msh")
+>>> result = bsgplan.plan_blocks(mesh_file, tris_per_block=16)
+>>> result.plan.n_blocks
+127
+"""
 
 from __future__ import annotations
 
@@ -14,13 +21,14 @@ from .errors import MeshReadError
 from .io import MeshFile
 from .mesh import clean
 from .planning import Plan, check_block_size, estimate
-from .planning.inverse import coarsest
+from .planning.inverse import within
 from .planning.totals import GRADIENT_LIMIT
 from .regions import Regions, find_regions, measure_regions
 from .regions.labels import connected
 from .regions.plateau import PLATEAU
 from .regions.segmentation import PERSISTENCE
 from .regions.selection import triangles_inside
+from .result import PlannedMesh
 from .sizing import SizeField, named_size_field, size_field
 
 
@@ -36,11 +44,12 @@ def plan_blocks(
     plateau: float = PLATEAU,
     gradient_limit: float = GRADIENT_LIMIT,
     progress: Callable[[str], None] = lambda _: None,
-) -> tuple[Plan, ...]:
-    """Return the plans of a mesh file, one a block size; with n_blocks the coarsest that needs no more.
+) -> PlannedMesh:
+    """Return a mesh file with its plans, one a block size.
 
-    size names a point or cell array; region is a polygon in the coordinates of the file, cut out first.
-    Raises what its steps raise; see `estimate`, `find_regions` and `coarsest`.
+    With n_blocks there is one plan, at the smallest block size that needs no more blocks than that. size
+    names a point or cell array; region is a polygon in the coordinates of the file, cut out first.
+    Raises what its steps raise; see `estimate`, `find_regions` and `within`.
     """
     sizes = (tris_per_block,) if isinstance(tris_per_block, int) else tuple(tris_per_block)
     for n in sizes:
@@ -50,21 +59,21 @@ def plan_blocks(
     field = size_of(cut, size)
 
     @lru_cache(maxsize=1)
-    def whole() -> Regions:
+    def drawn() -> Regions:
         label = connected(field.mesh, np.zeros(field.mesh.n_triangles, dtype=np.int64))
         return measure_regions(field, label, np.zeros(int(label.max()) + 1, dtype=bool))
 
     def plan_at(n: int) -> Plan:
         progress(f"planning with {n} triangles per block")
         if region is not None:
-            regions = whole()
+            regions = drawn()
         else:
             regions = find_regions(field, tris_per_block=n, persistence=persistence, plateau=plateau)
         return estimate(regions, tris_per_block=n, objective=objective, gradient_limit=gradient_limit)
 
     if n_blocks is not None:
-        return (coarsest(plan_at, n_blocks),)
-    return tuple(plan_at(n) for n in sizes)
+        return PlannedMesh(cut, (within(plan_at, field.expected_triangles, n_blocks),))
+    return PlannedMesh(cut, tuple(plan_at(n) for n in sizes))
 
 
 def size_of(mesh_file: MeshFile, name: str | None) -> SizeField:
@@ -92,10 +101,9 @@ def cut_out(mesh_file: MeshFile, region: BaseGeometry) -> MeshFile:
     The polygon is in the coordinates of the file, degrees where the mesh was projected from degrees.
     """
     if mesh_file.projection is not None:
-        to_plane = mesh_file.projection.to_plane
         x0, y0, x1, y1 = region.bounds
         fine = shapely.segmentize(region, max(x1 - x0, y1 - y0) / 50)  # straight in degrees, not in the plane
-        region = shapely.transform(fine, to_plane)
+        region = shapely.transform(fine, mesh_file.projection.to_plane)
     inside = triangles_inside(mesh_file.mesh, region)
     cleaned = clean(mesh_file.mesh.points, mesh_file.mesh.triangles[inside])
     kept = cleaned.kept_points

@@ -5,15 +5,11 @@ from __future__ import annotations
 import sys
 from math import isfinite, log
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 from cyclopts import Parameter
 
 from ..errors import InvalidOption
-
-if TYPE_CHECKING:
-    from ..io import MeshFile
-    from ..planning import Plan
 
 
 def estimate(
@@ -45,7 +41,7 @@ def estimate(
     tris_per_block
         Triangles per block, a square (default 16: two refinements), or several: 4,16,64.
     blocks
-        Instead: the largest block that needs at most so many blocks.
+        Instead: the block size that needs at most so many blocks, the smallest such.
     objective
         What patterns are chosen for: size, blocks, irregularity, quality or balanced.
     size
@@ -79,16 +75,16 @@ def estimate(
         raise InvalidOption(f"--figure and --vtk show one plan, not {len(sizes)}; give one block size")
     polygon = _polygon(region)
     from ..pipeline import plan_blocks
-    from .info import describe, open_mesh
-    from .output import check_writable
+    from ..result import dumps
+    from .info import open_mesh
+    from .output import check_writable, show
     from .progress import stages
 
     check_writable(save, figure, vtk, vtk_patterns)
     with stages() as progress:
         progress("reading")
-        mesh_file = open_mesh(file, is_lonlat=lonlat)
-        plans = plan_blocks(
-            mesh_file,
+        result = plan_blocks(
+            open_mesh(file, is_lonlat=lonlat),
             tris_per_block=sizes,
             n_blocks=blocks,
             size=size,
@@ -100,9 +96,18 @@ def estimate(
             progress=progress,
         )
         progress("writing")
-        document = _document(describe, mesh_file, plans) if json or save else {}
-        _write(mesh_file, plans[0], document, save, figure, vtk, vtk_patterns)
-    _print(plans, document if json else None, candidates=candidates)
+        for path, write in (
+            (vtk, result.write_vtk),
+            (vtk_patterns, result.write_vtk_patterns),
+            (figure, result.figure),
+            (save, result.save),
+        ):
+            if path is not None:
+                write(path)
+    if json:
+        sys.stdout.write(dumps(result.document()))
+    else:
+        show(result.tables(all_candidates=candidates))
 
 
 def block_sizes(text: str | None, n_blocks: int | None) -> tuple[int, ...]:
@@ -150,49 +155,3 @@ def _polygon(region: str | None) -> Any:
     from ..regions.selection import parse_region
 
     return parse_region(region)
-
-
-def _document(describe: Any, mesh_file: MeshFile, plans: tuple[Plan, ...]) -> dict[str, Any]:
-    from ..report.plan_document import estimate_document
-
-    mesh, projection = plans[0].regions.size.mesh, mesh_file.projection
-    scale = None if projection is None else projection.scale(mesh.points)
-    return estimate_document(describe(mesh_file), plans, scale=scale)
-
-
-def _write(
-    mesh_file: MeshFile,
-    plan: Plan,
-    document: dict[str, Any],
-    save: Path | None,
-    figure: Path | None,
-    vtk: Path | None,
-    vtk_patterns: Path | None,
-) -> None:
-    from .output import dumps, write_text
-
-    projection = mesh_file.projection
-    if vtk or vtk_patterns:
-        from ..io.vtk import write_patterns, write_plan
-
-        if vtk:
-            write_plan(vtk, plan, projection)
-        if vtk_patterns:
-            write_patterns(vtk_patterns, plan, projection)
-    if figure:
-        from ..report.figure import figure as draw
-        from ..report.figure import save_figure
-
-        save_figure(draw(plan, projection=projection, name=Path(mesh_file.path).name), figure)
-    if save:
-        write_text(save, dumps(document))
-
-
-def _print(plans: tuple[Plan, ...], document: dict[str, Any] | None, *, candidates: bool) -> None:
-    from ..report.plan_tables import block_sizes_table, tables
-    from .output import dumps, show
-
-    if document is not None:
-        sys.stdout.write(dumps(document))
-        return
-    show([block_sizes_table(plans)] if len(plans) > 1 else tables(plans[0], all_candidates=candidates))

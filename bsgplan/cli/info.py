@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import json
 import logging
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
@@ -35,10 +34,13 @@ def info(
         Write one JSON document instead of the table.
     """
     from ..report import mesh_report
+    from ..result import dumps, mesh_document
 
-    mesh = describe(open_mesh(file, is_lonlat=lonlat))
-    text = _dumps({"schema": SCHEMA, "mesh": mesh}) if json else mesh_report.text(mesh_report.rows(mesh))
-    sys.stdout.write(text + "\n")
+    mesh = mesh_document(open_mesh(file, is_lonlat=lonlat))
+    if json:
+        sys.stdout.write(dumps({"schema": SCHEMA, "mesh": mesh}))
+    else:
+        sys.stdout.write(mesh_report.text(mesh_report.rows(mesh)) + "\n")
 
 
 def open_mesh(file: Path, *, is_lonlat: bool) -> MeshFile:
@@ -53,24 +55,3 @@ def open_mesh(file: Path, *, is_lonlat: bool) -> MeshFile:
             "%s: the coordinates look like degrees, lengths are then no lengths; give --lonlat", file
         )
     return mesh_file
-
-
-def describe(mesh_file: MeshFile) -> dict[str, Any]:
-    """Return the document of a mesh: what its file holds and what can be measured on it."""
-    from ..report import mesh_report
-
-    projection, mesh = mesh_file.projection, mesh_file.mesh
-    scale = None if projection is None else projection.scale(mesh.points)
-    quad_scale = None if projection is None else projection.scale(mesh_file.quad_points)
-    found = mesh_file.description()
-    return {
-        "path": found["path"],
-        "format": found["format"],
-        **mesh_report.measures(mesh, scale=scale),
-        "quads": mesh_report.quad_measures(mesh_file.quad_points, mesh_file.quads, scale=quad_scale),
-        **found,
-    }
-
-
-def _dumps(document: dict[str, Any]) -> str:
-    return json.dumps(document, indent=2, allow_nan=False)

@@ -1,23 +1,17 @@
-"""What a command prints and writes: documents, tables, and files that appear whole or not at all."""
+"""What a command prints, and the check that what it shall write can be written."""
 
 from __future__ import annotations
 
-import json
 import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..errors import OutputError
 
 if TYPE_CHECKING:
     from ..report import Table
-
-
-def dumps(document: dict[str, Any]) -> str:
-    """Return a document as JSON text that ends with a newline; numbers are finite."""
-    return json.dumps(document, indent=2, allow_nan=False) + "\n"
 
 
 def show(tables: Sequence[Table]) -> None:
@@ -47,11 +41,3 @@ def check_writable(*paths: Path | None) -> None:
             raise OutputError(f"{path}: the folder {folder} does not exist; create it first")
         if not os.access(folder, os.W_OK):
             raise OutputError(f"{path}: the folder {folder} is not writable; choose another")
-
-
-def write_text(path: Path, text: str) -> None:
-    """Write text to a file, whole or not at all; raises OutputError."""
-    from ..io.atomic import replacing
-
-    with replacing(path) as temporary:
-        temporary.write_text(text, encoding="utf-8")

@@ -1,15 +1,19 @@
-"""The inverse question: the largest block that plans a mesh with at most so many blocks, or why not."""
+"""The inverse question: the block size that plans a mesh with at most so many blocks, or why none does."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import ceil, sqrt
 
 from ..errors import InvalidOption, NoPatternFits
 from .plan import Plan
 
-LARGEST_SIDE = 64
-"""Elements along a block edge beyond which no block size is tried: 4096 triangles a block."""
+PATIENCE = 3
+"""Block sizes tried after the need has stopped falling."""
+
+COUNT_TOLERANCE = 0.05
+"""Patterns may need this much less than triangles / s^2 blocks, by rounding: such sizes are tried too."""
 
 
 @dataclass(frozen=True)
@@ -35,33 +39,31 @@ def need(plan: Plan) -> Need:
     return Need(counts[driver], driver)
 
 
-def coarsest(plan_at: Callable[[int], Plan], n_blocks: int) -> Plan:
-    """Return the plan with the largest triangles per block that needs at most n_blocks.
+def within(plan_at: Callable[[int], Plan], n_triangles: float, n_blocks: int) -> Plan:
+    """Return the plan at the smallest block size that needs at most n_blocks.
 
-    plan_at makes the plan for a number of triangles per block. Sides 1, 2, 3, .. are tried as long as the
-    need can still fall. Raises NoPatternFits with the least need and its driver where none is small enough.
+    Any larger block that the mesh carries needs fewer still, and more triangles. plan_at makes the plan for
+    a number of triangles per block; sides s whose n_triangles / s^2 exceeds n_blocks are not tried, nor
+    more once the need no longer falls. Raises NoPatternFits with the least need and the driver that forbids
+    fewer, InvalidOption where n_blocks is under 1.
     """
     if n_blocks < 1:
         raise InvalidOption(f"{n_blocks} blocks is under 1; give the most blocks you accept")
-    first = plan_at(1)
-    least, least_at = need(first), 1
-    best = first if least.n_blocks <= n_blocks else None
-    side, stalled = 2, 0
-    while side <= LARGEST_SIDE and stalled < 3:
+    side = max(1, ceil(sqrt(n_triangles / n_blocks) * (1 - COUNT_TOLERANCE)))
+    least: tuple[int, int, str] | None = None
+    stalled = 0
+    while stalled < PATIENCE:
         plan = plan_at(side * side)
         found = need(plan)
         if found.n_blocks <= n_blocks:
-            best = plan
-        if found.n_blocks < least.n_blocks:
-            least, least_at, stalled = found, side * side, 0
+            return plan
+        if least is None or found.n_blocks < least[0]:
+            least, stalled = (found.n_blocks, side * side, found.driver), 0
         else:
             stalled += 1
-        if plan.drivers.blocks_by_count < 1:
-            break
-        side += 1
-    if best is not None:
-        return best
+        side += 1 if stalled == 0 else side // 4 + 1
+    count, tris_per_block, driver = least if least is not None else (0, 1, "")
     raise NoPatternFits(
-        f"no block size plans this mesh with {n_blocks} blocks; the least is {least.n_blocks}, "
-        f"at {least_at} triangles per block, and {least.driver} forbids fewer"
+        f"no block size plans this mesh with {n_blocks} blocks; the least is {count}, "
+        f"at {tris_per_block} triangles per block, and {driver} forbids fewer"
     )

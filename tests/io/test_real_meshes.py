@@ -12,9 +12,9 @@ from conftest import SHARED
 from predicates import assert_identity_holds, assert_is_mesh_file
 
 from bsgplan.cli import main
-from bsgplan.cli.info import describe
 from bsgplan.errors import BsgplanError
 from bsgplan.io import read
+from bsgplan.result import mesh_document
 
 FOLDER = SHARED / "meshes"
 NOT_READ_YET = (".2dm", ".node", ".ele", ".nc")
@@ -61,7 +61,7 @@ def test_agrees_with_the_independent_measurement(row):
     mesh_file = read(FOLDER / row["name"])
     assert_is_mesh_file(mesh_file)
     assert_identity_holds(mesh_file.mesh)
-    found = describe(mesh_file)
+    found = mesh_document(mesh_file)
     counts = [int(n) for n in re.findall(r"\d+", row["vertices/triangles (quads)"])]
     assert [found["n_points"], found["n_triangles"]] == counts[:2]
     assert found["ignored"].get("quad", 0) == (counts[2] if len(counts) > 2 else 0)

@@ -1,0 +1,100 @@
+"""The noun PlannedMesh: a mesh file with its plans, and every way to look at them or write them down."""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from .arrays import Floats
+from .io import MeshFile
+from .io.atomic import replacing
+from .planning import Plan
+from .report import Table, mesh_report, plan_document, plan_tables
+from .report.table import html, text
+
+
+@dataclass(frozen=True, eq=False)
+class PlannedMesh:
+    """A mesh file and its plans, one a block size."""
+
+    mesh_file: MeshFile
+    """The mesh planned; the part inside, where a region was drawn."""
+    plans: tuple[Plan, ...] = field(repr=False)
+    """One plan a block size."""
+
+    @property
+    def plan(self) -> Plan:
+        """The plan at the first block size."""
+        return self.plans[0]
+
+    @cached_property
+    def scale(self) -> Floats | None:
+        """Plane metres per true metre at each point, (n_points,); None without a projection."""
+        projection = self.mesh_file.projection
+        return None if projection is None else projection.scale(self.mesh_file.mesh.points)
+
+    def tables(self, *, all_candidates: bool = False) -> list[Table]:
+        """Return the tables of the plan, or one table over the block sizes where there are several."""
+        if len(self.plans) > 1:
+            return [plan_tables.block_sizes_table(self.plans)]
+        return plan_tables.tables(self.plan, all_candidates=all_candidates)
+
+    def document(self) -> dict[str, Any]:
+        """Return the JSON document `bsgplan.estimate/1`."""
+        return plan_document.estimate_document(mesh_document(self.mesh_file), self.plans, scale=self.scale)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the document to a JSON file, whole or not at all; raises OutputError."""
+        with replacing(path) as temporary:
+            temporary.write_text(dumps(self.document()), encoding="utf-8")
+
+    def figure(self, path: str | os.PathLike[str] | None = None) -> Any:
+        """Return the matplotlib Figure of the first plan, written to path if given."""
+        from .report.figure import figure, save_figure
+
+        result = figure(self.plan, projection=self.mesh_file.projection, name=Path(self.mesh_file.path).name)
+        if path is not None:
+            save_figure(result, path)
+        return result
+
+    def write_vtk(self, path: str | os.PathLike[str]) -> None:
+        """Write the mesh with regions, sizes, front coordinate, charge and block fronts to a .vtu."""
+        from .io.vtk import write_plan
+
+        write_plan(path, self.plan, self.mesh_file.projection)
+
+    def write_vtk_patterns(self, path: str | os.PathLike[str]) -> None:
+        """Write the chosen patterns as subdivided blocks to a .vtu."""
+        from .io.vtk_patterns import write_patterns
+
+        write_patterns(path, self.plan, self.mesh_file.projection)
+
+    def __str__(self) -> str:
+        return "\n\n".join(text(table) for table in self.tables())
+
+    def _repr_html_(self) -> str:
+        return "".join(html(table) for table in self.tables())
+
+
+def mesh_document(mesh_file: MeshFile) -> dict[str, Any]:
+    """Return the document of a mesh file: what it holds and what can be measured on it."""
+    projection, mesh = mesh_file.projection, mesh_file.mesh
+    scale = None if projection is None else projection.scale(mesh.points)
+    quad_scale = None if projection is None else projection.scale(mesh_file.quad_points)
+    found = mesh_file.description()
+    return {
+        "path": found["path"],
+        "format": found["format"],
+        **mesh_report.measures(mesh, scale=scale),
+        "quads": mesh_report.quad_measures(mesh_file.quad_points, mesh_file.quads, scale=quad_scale),
+        **found,
+    }
+
+
+def dumps(document: dict[str, Any]) -> str:
+    """Return a document as JSON text that ends with a newline; every number is finite."""
+    return json.dumps(document, indent=2, allow_nan=False) + "\n"
