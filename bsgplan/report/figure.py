@@ -91,12 +91,13 @@ def size_title(_: Scene) -> str:
 
 def regions_title(scene: Scene) -> str:
     """Return the heading of the regions."""
-    return f"{len(scene.plan.region_plans)} regions: number, pattern, block fronts"
+    n = len(scene.plan.region_plans)
+    return f"{n} region{'s' if n > 1 else ''}: number, pattern, block fronts"
 
 
 def charge_title(scene: Scene) -> str:
     """Return the heading of the charge."""
-    return f"irregularity budget: interior {scene.plan.drivers.charge:+.1f} (white: under the noise floor)"
+    return f"irregularity budget: interior {scene.plan.drivers.charge:+.1f} iota"
 
 
 PANELS: tuple[tuple[Panel, Callable[[Scene], str]], ...] = (
@@ -152,7 +153,7 @@ def _draw(drawn: Figure, axes: Any, scene: Scene, panel: Panel, box: Floats, hea
         show_plain_numbers(bar.yaxis)
     bar.tick_params(labelsize=FONT, which="both")
     if panel is draw_charge:
-        label = f"charge in a block's area [iota], noise {scene.charge_noise:.1g}"
+        label = f"charge in a block's area [iota], white: under the noise floor, {scene.charge_noise:.1g}"
     else:
         label = f"size h [{scene.view.size_unit}]"
     bar.set_ylabel(label, fontsize=FONT, labelpad=1)

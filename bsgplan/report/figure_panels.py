@@ -107,13 +107,15 @@ def draw_labels(axes: Any, scene: Scene, box: Floats, inches: Floats, listed: li
 
 
 def show_plain_numbers(axis: Any) -> None:
-    """Write the ticks of a logarithmic axis as 0.02, 50 or 2e+05, at 1, 2 and 5 of each decade."""
+    """Write the ticks of a logarithmic axis as 0.02, 50 or 2000, at 1, 2 and 5 of each decade."""
     from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
     low, high = axis.get_view_interval()
     steps = (1.0,) if high > 1000 * low else (1.0, 2.0, 5.0) if high > 5 * low else tuple(range(1, 10))
     axis.set_major_locator(LogLocator(subs=steps))
-    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.3g}"))
+    axis.set_major_formatter(
+        FuncFormatter(lambda value, _: f"{value:.3g}" if value < 1000 else f"{value:.0f}")
+    )
     axis.set_minor_formatter(NullFormatter())
 
 

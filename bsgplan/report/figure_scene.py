@@ -46,7 +46,7 @@ class Scene:
     borders: Floats
     """Borders of regions inside the domain, (n, 2, 2), plot coordinates."""
     outline: Floats
-    """Boundary of the domain, (n, 2, 2), plot coordinates."""
+    """Boundary of what is seen, (n, 2, 2), plot coordinates."""
     charge_density: Floats
     """Smoothed charge in each block's area, (n_points,), in units of iota."""
     charge_noise: float
@@ -63,7 +63,7 @@ def scene_of(plan: Plan, projection: GlobeMap | None) -> Scene:
     is_rim = second < 0
     label = plan.regions.label
     is_border = ~is_rim & (label[first] != label[second])
-    edge_is_shown = is_shown[first] | (~is_rim & is_shown[second])
+    n_shown = is_shown[first].astype(int) + (~is_rim & is_shown[second])
     ends = view.placed[mesh.topology.edges]
     density, noise = charge_density(plan)
     return Scene(
@@ -72,8 +72,8 @@ def scene_of(plan: Plan, projection: GlobeMap | None) -> Scene:
         h=size.h / (view.scale * view.size_factor),
         colour=_colours(plan),
         fronts=view.place(_fronts(plan, view.shown)),
-        borders=ends[is_border & edge_is_shown],
-        outline=ends[is_rim & edge_is_shown],
+        borders=ends[is_border & (n_shown == 2)],
+        outline=ends[n_shown == 1],
         charge_density=density,
         charge_noise=noise,
     )
