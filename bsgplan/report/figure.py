@@ -153,7 +153,7 @@ def _draw(drawn: Figure, axes: Any, scene: Scene, panel: Panel, box: Floats, hea
         show_plain_numbers(bar.yaxis)
     bar.tick_params(labelsize=FONT, which="both")
     if panel is draw_charge:
-        label = f"charge in a block's area [iota], white: under the noise floor, {scene.charge_noise:.1g}"
+        label = f"charge per block [iota], white is noise, under {scene.charge_noise:.1g}"
     else:
         label = f"size h [{scene.view.size_unit}]"
     bar.set_ylabel(label, fontsize=FONT, labelpad=1)
