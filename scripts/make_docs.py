@@ -1,0 +1,132 @@
+"""Make what the documentation shows: docs/examples/ and docs/pictures/, from the program as it stands.
+
+    python scripts/make_docs.py            # everything
+    python scripts/make_docs.py --text     # the examples only, pictures stay as they are
+
+tests/docs runs the same commands and compares, so an example cannot go stale unnoticed. Run from anywhere:
+paths in the commands are those of the repository.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import io
+import os
+import shlex
+import tomllib
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+EXAMPLES = ROOT / "docs" / "examples"
+PICTURES = ROOT / "docs" / "pictures"
+
+COLORS = 128
+"""Colours of a picture: with a palette a file is a quarter as large, and no eye sees it."""
+
+WIDEST = 1600
+"""Pixels across a picture at most: twice the column of a page."""
+
+LARGEST_PICTURE = 250_000
+"""Bytes of a picture at most."""
+
+
+def case(name: str) -> str:
+    """Return the path of a case's mesh in the repository."""
+    return f"cases/{name}/mesh.msh"
+
+
+def region_of(name: str) -> str:
+    """Return the polygon that a case records for --region."""
+    region: str = tomllib.loads((ROOT / "cases" / name / "case.toml").read_text())["region"]
+    return region
+
+
+TEXTS: dict[str, tuple[str, ...]] = {
+    "info.txt": ("info", case("rectangle")),
+    "square.txt": ("estimate", case("square")),
+    "rectangle.txt": ("estimate", case("rectangle"), "--tris-per-block", "16"),
+    "region.txt": ("estimate", case("rectangle"), "--region", region_of("rectangle")),
+    "annulus.txt": ("estimate", case("annulus")),
+    "objective.txt": ("estimate", case("rectangle"), "--objective", "irregularity"),
+    "sizes.txt": ("estimate", case("shoreline"), "--tris-per-block", "4,16,64,256"),
+    "blocks.txt": ("estimate", case("islands"), "--blocks", "500"),
+    "too-few-blocks.txt": ("estimate", case("shoreline"), "--blocks", "5"),
+    "no-square.txt": ("estimate", case("square"), "--tris-per-block", "20"),
+    "no-array.txt": ("estimate", case("plate"), "--size", "depth"),
+    "size.txt": ("estimate", case("plate"), "--size", "size"),
+}
+"""File in docs/examples/ and the command whose output it holds."""
+
+DOCUMENTS: dict[str, tuple[str, ...]] = {
+    "info.json": ("info", case("rectangle"), "--json"),
+    "estimate.json": ("estimate", case("rectangle"), "--region", region_of("rectangle"), "--json"),
+}
+"""The same for JSON documents, one of each schema."""
+
+DRAWN = ("shoreline", "islands", "aerofoil", "plate", "rectangle", "annulus", "square")
+"""Cases with a picture in docs/pictures/."""
+
+
+def run(words: tuple[str, ...]) -> tuple[int, str, str]:
+    """Run a command in this process; return exit code, standard output and standard error."""
+    from bsgplan.cli import main
+
+    out, err = io.StringIO(), io.StringIO()
+    with contextlib.chdir(ROOT), contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        code = main(list(words))
+    return code, out.getvalue(), err.getvalue()
+
+
+def transcript(words: tuple[str, ...]) -> str:
+    """Return a command as typed, what it says, and its exit code where that is not 0."""
+    code, out, err = run(words)
+    tail = f"exit code {code}\n" if code else ""
+    return f"$ {shlex.join(('bsgplan', *words))}\n{out}{err}{tail}"
+
+
+def document(words: tuple[str, ...]) -> str:
+    """Return the JSON document that a command prints."""
+    code, out, err = run(words)
+    if code or err:
+        raise SystemExit(f"{shlex.join(words)}: exit code {code}: {err}")
+    return out
+
+
+def draw(name: str) -> int:
+    """Draw the plan of a case as the command line does, with a palette; return the bytes written."""
+    from PIL import Image
+
+    path = PICTURES / f"{name}.png"
+    code, _, err = run(("estimate", case(name), "--figure", str(path)))
+    if code:
+        raise SystemExit(f"{name}: exit code {code}: {err}")
+    with Image.open(path) as picture:
+        colored = picture.convert("RGB")
+    colored.thumbnail((WIDEST, 2 * WIDEST), Image.Resampling.LANCZOS)
+    colored.quantize(COLORS, dither=Image.Dither.NONE).save(path, optimize=True)
+    if path.stat().st_size > LARGEST_PICTURE:
+        raise SystemExit(f"{path}: {path.stat().st_size} bytes, more than {LARGEST_PICTURE}; draw less")
+    return path.stat().st_size
+
+
+def main() -> None:
+    """Write every example, and every picture unless told otherwise."""
+    parser = argparse.ArgumentParser(description="Make the examples and pictures of the documentation.")
+    parser.add_argument("--text", action="store_true", help="leave the pictures alone")
+    options = parser.parse_args()
+    os.environ["NO_COLOR"] = "1"
+    for folder in (EXAMPLES, PICTURES):
+        folder.mkdir(parents=True, exist_ok=True)
+    for name, words in TEXTS.items():
+        (EXAMPLES / name).write_text(transcript(words))
+        print(name)
+    for name, words in DOCUMENTS.items():
+        (EXAMPLES / name).write_text(document(words))
+        print(name)
+    for name in () if options.text else DRAWN:
+        print(f"{name}.png  {draw(name)} bytes")
+
+
+if __name__ == "__main__":
+    main()
