@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections import defaultdict
+from collections.abc import Sequence
 
 Cells = list[list[int]]
 
@@ -92,3 +94,76 @@ def read_fort14(text: str) -> tuple[list[list[float]], list[list[int]]]:
     nodes = [[float(w.replace("D", "e")) for w in line.split()[1:4]] for line in lines[2 : 2 + n_nodes]]
     elements = lines[2 + n_nodes : 2 + n_nodes + n_elements]
     return nodes, [[int(w) for w in line.split()[2:5]] for line in elements]
+
+
+def limited_sizes(points: list[list[float]], sizes: list[float], slope: float) -> list[float]:
+    """Return min over y of size(y) + slope |x - y| for each x: the gradient limit in a convex domain."""
+    return [min(h + slope * math.dist(p, q) for q, h in zip(points, sizes, strict=True)) for p in points]
+
+
+def steepest_minimum(links: list[tuple[int, int, float]], values: list[float]) -> list[int]:
+    """Return the minimum that each node reaches along steepest edges (a, b, length), one node at a time."""
+    near: dict[int, list[tuple[int, float]]] = defaultdict(list)
+    for a, b, length in links:
+        near[a].append((b, length))
+        near[b].append((a, length))
+    result = []
+    for node in range(len(values)):
+        while lower := [(b, d) for b, d in near[node] if values[b] < values[node]]:
+            here = values[node]
+            node = min(
+                lower, key=lambda pair, here=here: ((values[pair[0]] - here) / pair[1], values[pair[0]])
+            )[0]
+        result.append(node)
+    return result
+
+
+def basins(links: list[tuple[int, int, float]], values: list[float], persistence: float) -> list[int]:
+    """Return the surviving minimum of each node by flooding; values are distinct.
+
+    The water rises over the edges. Where it joins two pools, the one with the higher minimum ends; if its
+    depth is under persistence, its basin joins the one across that edge.
+    """
+    start = steepest_minimum(links, values)
+    pool, joins = list(start), {}
+
+    def lowest(node: int) -> int:
+        while pool[node] != node:
+            node = pool[node]
+        return node
+
+    def height(link: tuple[int, int, float]) -> tuple[float, float]:
+        a, b, _ = link
+        return max(values[a], values[b]), min(values[a], values[b])
+
+    for a, b, _ in sorted(links, key=height):
+        low_a, low_b = lowest(a), lowest(b)
+        if low_a == low_b:
+            continue
+        if values[low_a] > values[low_b]:
+            a, b, low_a, low_b = b, a, low_b, low_a
+        if max(values[a], values[b]) - values[low_b] < persistence:
+            joins[low_b] = start[a]
+        pool[low_b] = low_a
+    result = []
+    for node in start:
+        while node in joins:
+            node = joins[node]
+        result.append(node)
+    return result
+
+
+def contour_elements(
+    points: Sequence[Sequence[float]], triangles: Cells, log_h: Sequence[float], level: float
+) -> float:
+    """Return the integral of ds / h along the contour of log h, by marching through the triangles."""
+    length = 0.0
+    for triangle in triangles:
+        cuts = []
+        for a, b in zip(triangle, triangle[1:] + triangle[:1], strict=True):
+            if (log_h[a] < level) != (log_h[b] < level):
+                t = (level - log_h[a]) / (log_h[b] - log_h[a])
+                cuts.append([p + t * (q - p) for p, q in zip(points[a], points[b], strict=True)])
+        if len(cuts) == 2:
+            length += math.dist(*cuts)
+    return length / math.exp(level)

@@ -55,12 +55,15 @@ def _descend(edges: Ints, lengths: Floats, values: Floats) -> Ints:
 def _merge(edges: Ints, values: Floats, minima: Ints, basin: Ints, persistence: float) -> Ints:
     first, second = basin[edges[:, 0]], basin[edges[:, 1]]
     is_border = first != second
-    saddle = values[edges[is_border]].max(axis=1)
-    tree = _lowest_saddles(first[is_border], second[is_border], saddle, len(minima))
+    # edges that meet in one highest node have one height: the lower end decides, not the numbering
+    ends = np.sort(values[edges[is_border]], axis=1)[:, ::-1]
+    levels, saddle = np.unique(ends, axis=0, return_inverse=True)
+    tree = _lowest_saddles(first[is_border], second[is_border], saddle.ravel(), len(minima))
     depth = values[minima]
     label = np.arange(len(minima))
     sublevel = list(range(len(minima)))  # union-find over the components below the current saddle
-    for a, b, height in zip(*tree, strict=True):
+    for a, b, rank in zip(*tree, strict=True):
+        height = levels[rank, 0]
         root_a, root_b = _root(sublevel, a), _root(sublevel, b)
         if (depth[root_a], root_a) > (depth[root_b], root_b):
             root_a, root_b, a = root_b, root_a, b
@@ -75,22 +78,21 @@ def _merge(edges: Ints, values: Floats, minima: Ints, basin: Ints, persistence: 
 
 
 def _lowest_saddles(
-    first: Ints, second: Ints, saddle: Floats, n_basins: int
-) -> tuple[list[int], list[int], list[float]]:
-    """Return the minimum spanning tree of the basins over their saddles, lowest saddle first."""
+    first: Ints, second: Ints, saddle: Ints, n_basins: int
+) -> tuple[list[int], list[int], list[int]]:
+    """Return the minimum spanning tree of the basins over the ranks of their saddles, lowest first."""
     if not len(saddle):
         return [], [], []
     a, b = np.minimum(first, second), np.maximum(first, second)
     order = np.lexsort((b, a, saddle))
     key = a[order] * np.int64(n_basins) + b[order]
     order = order[np.unique(key, return_index=True)[1]]
-    heights = np.sort(np.unique(saddle[order]))
-    weight = np.searchsorted(heights, saddle[order]) + 1.0  # positive, as csgraph takes 0 for no edge
+    weight = saddle[order] + 1.0  # positive, as csgraph takes 0 for no edge
     graph = coo_array((weight, (a[order], b[order])), shape=(n_basins, n_basins)).tocsr()
     tree = minimum_spanning_tree(graph).tocoo()
     by_height = np.lexsort((tree.col, tree.row, tree.data))
-    levels = heights[tree.data[by_height].astype(np.int64) - 1]
-    return tree.row[by_height].tolist(), tree.col[by_height].tolist(), levels.tolist()
+    ranks = tree.data[by_height].astype(np.int64) - 1
+    return tree.row[by_height].tolist(), tree.col[by_height].tolist(), ranks.tolist()
 
 
 def _root(parent: list[int], node: int) -> int:
