@@ -29,8 +29,11 @@ MOST_BINS = 48
 LEAST_COUNT = 1e-3
 """A front is given this many elements at least: in a region of one size no contour has a length."""
 
-TINY = np.finfo(np.float64).tiny
+TINY = 1e-100
 """The least length of a front: positive."""
+
+NO_CONTOUR = 1e-9
+"""A bin with this share of a region's contours has none: its triangles have one size at all corners."""
 
 LEAST_SPAN = 1e-9
 """A region of one size is given this span of log size, so that its bins are not empty."""
@@ -124,7 +127,8 @@ def _profile(edges: Floats, weight: Floats, front: Floats, length: Floats) -> Pr
     two ends of a region over levels that hardly occur; such an end bin is shortened, by e^0.3 in size at
     most, until its front is as long as the fronts beside it, which keeps its sums.
     """
-    edges, lengths = edges.copy(), length / np.diff(edges)
+    edges, weight, front, length = _without_empty_bins(edges, weight, front, length)
+    lengths = length / np.diff(edges)
     ends = np.empty(2)
     for side, inner, inner_edge in ((0, slice(1, 7), edges[1]), (-1, slice(-7, -1), edges[-2])):
         ends[side] = _end_length(edges, lengths, side, inner)
@@ -151,6 +155,21 @@ def _profile(edges: Floats, weight: Floats, front: Floats, length: Floats) -> Pr
         lengths=np.concatenate([ends[:1], lengths, ends[1:]]),
         positions=_stations(layers * h * np.sqrt(3) / 2),
     )
+
+
+def _without_empty_bins(
+    edges: Floats, weight: Floats, front: Floats, length: Floats
+) -> tuple[Floats, Floats, Floats, Floats]:
+    """Return the edges and sums of the bins, each one without a contour drawn into the one before it.
+
+    Few triangles of much weight (a named size far below the edges) need not reach every bin.
+    """
+    is_full = (weight > 0) & (length > NO_CONTOUR * length.sum())
+    owner = np.maximum(np.cumsum(is_full) - 1, 0)
+    n = int(owner[-1]) + 1
+    edges = np.concatenate([edges[:1], edges[np.flatnonzero(is_full)[1:]], edges[-1:]])
+    length = np.maximum(sums_by(owner, length, n), TINY)
+    return edges, sums_by(owner, weight, n), sums_by(owner, front, n), length
 
 
 def _absorb_ragged_end(weight: Floats, counts: Floats, lengths: Floats) -> tuple[Floats, Floats, Floats]:
