@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
+import reference
 
 from bsgplan.io import MeshFile
 from bsgplan.mesh import Mesh
+from bsgplan.planning import Plan
+from bsgplan.regions import Profile, Regions
 
 
 def assert_is_mesh(mesh: Mesh) -> None:
@@ -35,3 +39,64 @@ def assert_is_mesh_file(mesh_file: MeshFile) -> None:
         assert ((boundary.nodes >= 0) & (boundary.nodes < mesh.n_points)).all()
         for array in (boundary.partners, boundary.columns):
             assert array is None or len(array) == boundary.n_nodes
+
+
+def assert_is_segmentation(regions: Regions) -> None:
+    """Every triangle in exactly one region, regions edge-connected, sums of the parts those of the whole."""
+    mesh = regions.size.mesh
+    label = regions.label
+    assert label.shape == (mesh.n_triangles,)
+    assert [region.id for region in regions] == list(range(len(regions)))
+    assert np.array_equal(np.concatenate([r.triangles for r in regions]), np.argsort(label, kind="stable"))
+    pairs = [(a, b) for a, b in mesh.topology.neighbours.tolist() if label[a] == label[b]]
+    n_components = len(reference.components(set(range(mesh.n_triangles)), pairs))
+    assert n_components == len(regions) == len(np.unique(label))
+    assert sum(r.weight for r in regions) == pytest.approx(regions.size.expected_triangles)
+    assert sum(r.area for r in regions) == pytest.approx(mesh.area)
+    for region in regions:
+        assert region.kind in {"transition", "uniform"}
+        assert 0 < region.h_min <= region.h_max
+        assert region.q_min == mesh.qualities[region.triangles].min()
+        assert_is_profile(region.profile)
+
+
+def assert_is_profile(profile: Profile) -> None:
+    """Stations ordered from the fine to the coarse end, everything positive and finite."""
+    for name in ("depths", "counts", "levels", "lengths", "positions"):
+        values = getattr(profile, name)
+        assert np.isfinite(values).all(), name
+        assert len(values) == len(profile.depths) >= 3
+    assert profile.depths[0] == profile.positions[0] == 0
+    assert (np.diff(profile.depths) > 0).all()
+    assert (np.diff(profile.positions) >= 0).all()
+    assert (np.diff(profile.levels) > 0).all()
+    assert (profile.counts > 0).all()
+    assert (profile.lengths > 0).all()
+    assert profile.fronts == profile.layers + 1
+
+
+def assert_is_plan(plan: Plan) -> None:
+    """One plan a region, the chosen pattern among its candidates, totals that are sums."""
+    assert len(plan.region_plans) == len(plan.regions)
+    for part, region in zip(plan.region_plans, plan.regions, strict=True):
+        assert part.region is region
+        assert (part.chosen is None) == (region.kind == "uniform")
+        assert part.n_blocks >= 1
+        assert part.planned_triangles == part.n_blocks * plan.tris_per_block
+        if part.chosen is None:
+            assert part.candidates == ()
+            continue
+        assert part.chosen in part.candidates
+        counts = part.chosen.pattern.counts
+        assert part.chosen.n_blocks == sum(counts) + sum(counts[1:-1])
+        assert len(part.profile) == len(counts)
+        assert part.chosen.rejected is None or all(c.rejected for c in part.candidates)
+        is_rejected = [c.rejected is not None for c in part.candidates]
+        assert is_rejected == sorted(is_rejected)
+        for candidate in part.candidates:
+            assert candidate.pattern.is_closed == region.is_closed
+            assert 0 < candidate.q_min <= candidate.bounds.q_bound + 1e-9 <= 1 + 1e-9
+    assert plan.n_blocks == sum(p.n_blocks for p in plan.region_plans)
+    assert plan.planned_triangles == sum(p.planned_triangles for p in plan.region_plans)
+    assert plan.irregularity.positive == sum(p.irregularity.positive for p in plan.region_plans)
+    assert plan.irregularity.negative == sum(p.irregularity.negative for p in plan.region_plans)
