@@ -1,0 +1,102 @@
+"""Candidates of the paper's region, and what the objectives choose among them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapely
+
+from bsgplan.errors import InvalidOption
+from bsgplan.io import read
+from bsgplan.mesh import clean
+from bsgplan.planning import OBJECTIVES, Candidate, choose, estimate
+from bsgplan.regions import Regions, measure_regions
+from bsgplan.regions.selection import triangles_inside
+from bsgplan.sizing import size_field
+
+CASES = Path(__file__).parents[2] / "cases"
+
+
+def drawn(tris_per_block: int) -> Regions:
+    """The rectangle between the constant parts, cut out and measured by itself."""
+    mesh = read(CASES / "rectangle" / "mesh.msh").mesh
+    inside = triangles_inside(mesh, shapely.box(0.3, 0, 0.96, 1))
+    size = size_field(clean(mesh.points, mesh.triangles[inside]).mesh)
+    label = np.zeros(size.mesh.n_triangles, dtype=np.int64)
+    return measure_regions(size, label, np.zeros(1, dtype=bool), tris_per_block=tris_per_block)
+
+
+@pytest.fixture(scope="module")
+def listed() -> dict[str, Candidate]:
+    """Candidates of the drawn region at 16 triangles a block, by their pattern."""
+    (part,) = estimate(drawn(16)).region_plans
+    return {str(c.pattern): c for c in part.candidates}
+
+
+def test_the_drawn_region_is_the_transition_of_the_paper() -> None:
+    """28 +- 2 elements on the fine front and 10 to 11.5 fronts (the coarse front is measured elsewhere)."""
+    profile = drawn(16)[0].profile
+    assert profile.fine_elements == pytest.approx(28, abs=2)
+    assert 10 <= profile.fronts <= 11.5
+
+
+@pytest.mark.parametrize(
+    ("pattern", "blocks", "triangles", "positive"), [("7:5:3:1", 24, 384, 2), ("7:4:1", 16, 256, 3)]
+)
+def test_the_patterns_of_the_paper_are_listed(
+    listed: dict[str, Candidate], pattern: str, blocks: int, triangles: int, positive: int
+) -> None:
+    candidate = listed[pattern]
+    assert candidate.n_blocks == blocks
+    assert candidate.planned_triangles == triangles
+    assert candidate.pattern.irregularity.positive == positive
+
+
+def test_the_anisotropic_pattern_is_listed_and_rejected_with_its_reason(listed: dict[str, Candidate]) -> None:
+    assert "strip 7:1 is anisotropic" in str(listed["7:1"].rejected)
+
+
+@pytest.mark.parametrize("objective", OBJECTIVES)
+def test_a_rejected_candidate_is_chosen_only_where_all_are(
+    listed: dict[str, Candidate], objective: str
+) -> None:
+    assert choose(list(listed.values()), objective).rejected is None
+    rejected = [c for c in listed.values() if c.rejected]
+    assert choose(rejected, objective) in rejected
+
+
+def test_objectives_choose_what_they_say(listed: dict[str, Candidate]) -> None:
+    every = list(listed.values())
+    good = [c for c in every if c.rejected is None]
+    assert choose(every, "blocks").n_blocks == min(c.n_blocks for c in good)
+    assert choose(every, "irregularity").pattern.irregularity.positive == min(
+        c.pattern.irregularity.positive for c in good
+    )
+    assert choose(every, "quality").q_min == max(c.q_min for c in good)
+    by_size = min(good, key=lambda c: c.misfit + 2 * c.count_misfit)
+    assert choose(every, "size").misfit + 2 * choose(every, "size").count_misfit == pytest.approx(
+        by_size.misfit + 2 * by_size.count_misfit
+    )
+
+
+def test_the_order_of_candidates_does_not_matter(listed: dict[str, Candidate]) -> None:
+    every = list(listed.values())
+    for objective in OBJECTIVES:
+        assert choose(every, objective) is choose(every[::-1], objective)
+
+
+def test_an_unknown_objective_names_the_known_ones(listed: dict[str, Candidate]) -> None:
+    with pytest.raises(InvalidOption, match="'cheap' is unknown; choose one of size, blocks"):
+        choose(list(listed.values()), "cheap")
+
+
+def test_blocks_too_large_for_the_coarse_front_are_said_to_be() -> None:
+    """The paper's limit: "constrained by the coarsest boundary which only contains four elements"."""
+    (part,) = estimate(drawn(64), tris_per_block=64).region_plans
+    assert part.limited is not None
+    assert "coarsest front, which only contains four elements" in part.limited
+    assert part.largest_tris_per_block == 16
+    (fitting,) = estimate(drawn(16), tris_per_block=16).region_plans
+    assert fitting.limited is None
