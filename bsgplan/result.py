@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from .arrays import Floats
+from .atomic import replacing
 from .io import MeshFile
-from .io.atomic import replacing
 from .planning import Plan
 from .report import Table, mesh_report, plan_document, plan_tables
 from .report.table import html, text

@@ -123,7 +123,7 @@ def block_sizes(text: str | None, n_blocks: int | None) -> tuple[int, ...]:
     if n_blocks is not None and n_blocks < 1:
         raise InvalidOption(f"--blocks {n_blocks} is under 1; give the most blocks you accept")
     sizes = []
-    for word in (text or "16").split(","):
+    for word in ("16" if text is None else text).split(","):
         try:
             sizes.append(int(word))
         except ValueError:

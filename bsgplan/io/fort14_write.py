@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from ..arrays import Floats
+from ..atomic import replacing
 from ..errors import OutputError
-from .atomic import replacing
 from .boundary import Boundary, n_nodes
 from .file import MeshFile
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from ..arrays import Floats, Ints
+from ..atomic import replacing
 from ..errors import InvalidOption
-from .atomic import replacing
 
 FORMATS = {".vtu": "vtu", ".vtk": "vtk"}
 """Suffixes that are written, and what meshio calls them."""

@@ -28,6 +28,8 @@ def parse_region(text: str) -> BaseGeometry:
     if len(numbers) == 4 and all(_is_number(n) for n in numbers):
         x0, y0, x1, y1 = (float(n) for n in numbers)
         return _checked(shapely.box(min(x0, x1), min(y0, y1), max(x0, x1), max(y0, y1)), text)
+    if len(numbers) > 1 and all(_is_number(n) for n in numbers):
+        raise InvalidOption(f"region {text!r} has {len(numbers)} numbers, a box has four; {USE}")
     if "(" in text:
         try:
             return _checked(shapely.from_wkt(text), text)

@@ -7,7 +7,6 @@ Where the finest quarter of the triangles fills under a tenth of the domain, eac
 from __future__ import annotations
 
 import os
-import tempfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,7 +14,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..arrays import Floats
-from ..errors import InvalidOption, OutputError
+from ..atomic import replacing
+from ..errors import InvalidOption
 from ..planning import Plan
 from .figure_layout import BOTTOM, RIGHT, arrangement
 from .figure_list import draw_list, list_height, listed_regions
@@ -73,15 +73,8 @@ def save_figure(drawn: Figure, path: str | os.PathLike[str]) -> None:
         raise InvalidOption(
             f"{os.fspath(path)}: suffix {target.suffix!r} is no figure format; write {', '.join(SUFFIXES)}"
         )
-    try:
-        with tempfile.TemporaryDirectory(prefix=f".{target.name}.", dir=target.parent) as folder:
-            whole = Path(folder) / f"figure{target.suffix}"
-            drawn.savefig(whole, dpi=DOTS, bbox_inches="tight", pad_inches=0.1)
-            whole.replace(target)
-    except OSError as error:
-        raise OutputError(
-            f"{target}: cannot be written ({error.strerror or error}); check the folder"
-        ) from None
+    with replacing(target) as temporary:
+        drawn.savefig(temporary, dpi=DOTS, bbox_inches="tight", pad_inches=0.1)
 
 
 def size_title(_: Scene) -> str:
