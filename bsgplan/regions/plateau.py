@@ -40,7 +40,7 @@ def plateaus(size: SizeField, *, plateau: float, spread: float, least: float) ->
         is_flat = (np.count_nonzero(is_low[mesh.triangles], axis=1) >= 2) & ~is_zone
         piece = labels.connected(mesh, is_flat.astype(np.int64))
         is_large = sums_by(piece, size.triangle_weights, int(piece.max()) + 1) >= least
-        is_zone |= is_flat & (is_large & (_spread(piece, log_h) < spread))[piece]
+        is_zone |= is_flat & (is_large & (spread_of(piece, log_h) < spread))[piece]
     return is_zone
 
 
@@ -53,7 +53,7 @@ def _largest_beside(mesh: Mesh, values: Floats) -> Floats:
     return result
 
 
-def _spread(label: Ints, log_h: Floats) -> Floats:
+def spread_of(label: Ints, log_h: Floats) -> Floats:
     """Return the span of log size of each label, (n,): of a uniform distribution of the same variance."""
     n = int(label.max()) + 1
     count = np.bincount(label, minlength=n)

@@ -13,14 +13,15 @@ from ..arrays import Bools, Floats, Ints, sums_by
 from ..mesh import Mesh
 from ..sizing import SizeField
 from . import labels
-from .plateau import PLATEAU, plateaus
+from .plateau import PLATEAU, plateaus, spread_of
 from .watershed import basins
 
 PERSISTENCE = float(np.log(1.3))
 """Default depth in log size below which a fine or coarse spot is noise: sizes that differ by 30 %."""
 
 LEAST_BLOCKS = 4
-"""A transition of fewer blocks than this joins a neighbour: 2:2 on two fronts. A uniform zone needs one."""
+"""A transition of fewer blocks than this joins a neighbour: 2:2 on two fronts. A uniform zone needs one; a
+transition whose sizes differ by less than the persistence joins a neighbour whatever its blocks."""
 
 LEAST_WIDTH = 0.5
 """A region thinner than this many block layers joins a neighbour."""
@@ -40,7 +41,9 @@ def segment(
     label = labels.connected(mesh, np.where(is_zone, -1, _monotone_cells(mesh, size.log_h, persistence)))
 
     def merged(label: Ints) -> Ints:
-        least = np.where(_zone_share(label, weight, is_zone) > 0.5, 1, LEAST_BLOCKS) * tris_per_block
+        is_uniform = _zone_share(label, weight, is_zone) > 0.5
+        least = np.where(is_uniform, 1.0, LEAST_BLOCKS) * tris_per_block
+        least[~is_uniform & (spread_of(label, log_h) < persistence)] = np.inf  # no transition: joins one
         return labels.merge_small(mesh, label, log_h, weight, least=least, width=LEAST_WIDTH * side)
 
     for _ in range(3):
