@@ -21,8 +21,11 @@ ROOT = Path(__file__).resolve().parent.parent
 EXAMPLES = ROOT / "docs" / "examples"
 PICTURES = ROOT / "docs" / "pictures"
 
-COLORS = 128
-"""Colours of a picture: with a palette a file is a quarter as large, and no eye sees it."""
+COLORS = 256
+"""Colours of a picture: with a palette that covers rare colours too, a file is a quarter as large."""
+
+REFINEMENTS = 5
+"""Rounds of k-means by which the palette is improved."""
 
 WIDEST = 1600
 """Pixels across a picture at most: twice the column of a page."""
@@ -104,7 +107,9 @@ def draw(name: str) -> int:
     with Image.open(path) as picture:
         colored = picture.convert("RGB")
     colored.thumbnail((WIDEST, 2 * WIDEST), Image.Resampling.LANCZOS)
-    colored.quantize(COLORS, dither=Image.Dither.NONE).save(path, optimize=True)
+    colored.quantize(
+        COLORS, method=Image.Quantize.MAXCOVERAGE, kmeans=REFINEMENTS, dither=Image.Dither.NONE
+    ).save(path, optimize=True)
     if path.stat().st_size > LARGEST_PICTURE:
         raise SystemExit(f"{path}: {path.stat().st_size} bytes, more than {LARGEST_PICTURE}; draw less")
     return path.stat().st_size
