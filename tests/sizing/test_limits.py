@@ -42,7 +42,7 @@ def test_limiting_twice_changes_nothing(case: tuple[Mesh, Floats], slope: float)
 def test_a_limited_size_is_close_to_the_one_over_straight_distances(
     case: tuple[Mesh, Floats], slope: float
 ) -> None:
-    """Paths through a mesh are never shorter than straight; on jittered ones the worst of all is 23 % longer."""
+    """Paths through a mesh are never shorter than straight; on jittered ones the worst is 23 % longer."""
     mesh, log_h = case
     size = np.exp(log_h)
     limited = limit_gradient(mesh, size, slope)
