@@ -180,7 +180,7 @@ def stage_counts(case: Case, folder: Path, *options: str) -> dict[str, Any]:
     return {
         "mesh": {key: value for key, value in plan["mesh"].items() if isinstance(value, int | dict)},
         "regions": [{key: region[key] for key in kept if key in region} for region in plan["regions"]],
-        "totals": {key: plan["totals"][key] for key in counted},
+        "totals": {key: round(plan["totals"][key], 6) for key in counted},
     }
 
 

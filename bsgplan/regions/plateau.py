@@ -24,6 +24,16 @@ needs an edge or two to stop growing. Where log h is linear the share is e^(-2 |
 |grad h| = 0.46; steeper fields are kept whole by the bound on the spread of a zone."""
 
 
+BLUR = 0.6
+"""Beside a plateau, a slope under this share of the slope three edges away is blur, and belongs to it .."""
+
+NEARLY = 0.1
+""".. where the size is within 10 % of the plateau's .."""
+
+ROUNDS = 4
+""".. and within so many triangles of it, two layers."""
+
+
 def plateaus(size: SizeField, *, plateau: float, spread: float, least: float) -> Bools:
     """Return the triangles of uniform zones, (n_triangles,).
 
@@ -41,7 +51,23 @@ def plateaus(size: SizeField, *, plateau: float, spread: float, least: float) ->
         piece = labels.connected(mesh, is_flat.astype(np.int64))
         is_large = sums_by(piece, size.triangle_weights, int(piece.max()) + 1) >= least
         is_zone |= is_flat & (is_large & (spread_of(piece, log_h) < spread))[piece]
-    return is_zone
+    is_blurred = steepness < BLUR * _largest_beside(mesh, beside)
+    return _grown(mesh, is_zone, np.count_nonzero(is_blurred[mesh.triangles], axis=1) >= 2, log_h)
+
+
+def _grown(mesh: Mesh, is_zone: Bools, is_blurred: Bools, log_h: Floats) -> Bools:
+    """Return the zones with the blurred triangles beside them whose size is nearly theirs, (n_triangles,)."""
+    piece = labels.connected(mesh, is_zone.astype(np.int64))
+    n = int(piece.max()) + 1
+    level = sums_by(piece, log_h, n) / np.bincount(piece, minlength=n)
+    zone = np.where(is_zone, piece, -1)
+    pairs = np.concatenate([mesh.topology.neighbours, mesh.topology.neighbours[:, ::-1]])
+    for _ in range(ROUNDS):
+        inner, outer = zone[pairs[:, 0]], pairs[:, 1]
+        joins = (inner >= 0) & (zone[outer] < 0) & is_blurred[outer]
+        joins &= np.abs(log_h[outer] - level[inner]) < NEARLY
+        zone[outer[joins]] = inner[joins]
+    return np.asarray(zone >= 0)
 
 
 def _largest_beside(mesh: Mesh, values: Floats) -> Floats:

@@ -11,8 +11,8 @@ from ..mesh.operators import to_vertices
 from .field import SizeField
 from .smoothing import fit_edges, smooth
 
-REACH = 0.5
-"""Smoothing length of the size field in local edge lengths: waves shorter than three edges are quieted (the
+REACH = 0.7
+"""Smoothing length of the size field in local edge lengths: waves shorter than four edges are quieted (the
 noise of a mesh generator, 10 to 15 % an edge); the ends of a 28 -> 4 transition are hardly bent."""
 
 
