@@ -19,26 +19,27 @@ from bsgplan.sizing import size_field
 CASES = Path(__file__).parents[2] / "cases"
 
 
-def drawn(tris_per_block: int) -> Regions:
+def drawn() -> Regions:
     """The rectangle between the constant parts, cut out and measured by itself."""
     mesh = read(CASES / "rectangle" / "mesh.msh").mesh
     inside = triangles_inside(mesh, shapely.box(0.3, 0, 0.96, 1))
     size = size_field(clean(mesh.points, mesh.triangles[inside]).mesh)
     label = np.zeros(size.mesh.n_triangles, dtype=np.int64)
-    return measure_regions(size, label, np.zeros(1, dtype=bool), tris_per_block=tris_per_block)
+    return measure_regions(size, label, np.zeros(1, dtype=bool))
 
 
 @pytest.fixture(scope="module")
 def listed() -> dict[str, Candidate]:
     """Candidates of the drawn region at 16 triangles a block, by their pattern."""
-    (part,) = estimate(drawn(16)).region_plans
+    (part,) = estimate(drawn()).region_plans
     return {str(c.pattern): c for c in part.candidates}
 
 
 def test_the_drawn_region_is_the_transition_of_the_paper() -> None:
-    """28 +- 2 elements on the fine front and 10 to 11.5 fronts (the coarse front is measured elsewhere)."""
-    profile = drawn(16)[0].profile
+    """28 +- 2 elements on the fine front, 4 +- .5 on the coarse, 10 to 11.5 fronts."""
+    profile = drawn()[0].profile
     assert profile.fine_elements == pytest.approx(28, abs=2)
+    assert profile.coarse_elements == pytest.approx(4, abs=0.5)
     assert 10 <= profile.fronts <= 11.5
 
 
@@ -94,9 +95,9 @@ def test_an_unknown_objective_names_the_known_ones(listed: dict[str, Candidate])
 
 def test_blocks_too_large_for_the_coarse_front_are_said_to_be() -> None:
     """The paper's limit: "constrained by the coarsest boundary which only contains four elements"."""
-    (part,) = estimate(drawn(64), tris_per_block=64).region_plans
+    (part,) = estimate(drawn(), tris_per_block=64).region_plans
     assert part.limited is not None
     assert "coarsest front, which only contains four elements" in part.limited
     assert part.largest_tris_per_block == 16
-    (fitting,) = estimate(drawn(16), tris_per_block=16).region_plans
+    (fitting,) = estimate(drawn(), tris_per_block=16).region_plans
     assert fitting.limited is None

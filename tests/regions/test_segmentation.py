@@ -123,7 +123,7 @@ def test_monotone_means_one_fine_and_one_coarse_spot(
     n = int(strips.max()) + 1
     for regions in (
         find_regions(size, tris_per_block=4, persistence=persistence),
-        measure_regions(size, strips, np.zeros(n, bool), tris_per_block=4, persistence=persistence),
+        measure_regions(size, strips, np.zeros(n, bool), persistence=persistence),
     ):
         for k, region in enumerate(regions):
             assert region.is_monotone == (spots(regions, k, persistence) == (1, 1))
