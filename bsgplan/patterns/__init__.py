@@ -1,8 +1,10 @@
 """The nouns Pattern, Shape, Spacing, Bounds and Realised, and the verbs that make them: no mesh in here."""
 
 from .bounds import Bounds, bounds, fan_angle, fan_edge_ratio, fan_quality, valences_of_quality
+from .length import BestLength, best_length, length_of_layers
 from .pattern import Pattern
 from .realise import Realised, realise, relative_irregularity, vertex_irregularity_of_fronts
+from .search import Found, search
 from .shape import Shape
 from .spacing import Spacing, best_spacing, paper_spacing
 from .strip import strip_triangles
@@ -10,20 +12,25 @@ from .subdivision import subdivide
 from .width import best_width, strip_quality, width_interval
 
 __all__ = [
+    "BestLength",
     "Bounds",
+    "Found",
     "Pattern",
     "Realised",
     "Shape",
     "Spacing",
+    "best_length",
     "best_spacing",
     "best_width",
     "bounds",
     "fan_angle",
     "fan_edge_ratio",
     "fan_quality",
+    "length_of_layers",
     "paper_spacing",
     "realise",
     "relative_irregularity",
+    "search",
     "strip_quality",
     "strip_triangles",
     "subdivide",

@@ -110,6 +110,8 @@ def straight_widths(pattern: Pattern, length: float) -> Floats:
     while reached < (q := (reached + missed) / 2) < missed:
         reached, missed = (q, missed) if _is_reached(forms, q, length) else (reached, q)
     low, high = width_intervals(forms, reached)
+    if not np.isfinite(low).all():  # at the peak of a strip, but for rounding: nothing beats this
+        return np.asarray(widths * (length / widths.sum()))
     slack = high.sum() - low.sum()
     share = np.clip((length - low.sum()) / slack, 0, 1) if slack > 0 else 0.5
     widths = low + share * (high - low)

@@ -77,10 +77,11 @@ def form_quality(forms: Floats, widths: Floats) -> Floats:
     return np.asarray((2 * np.sqrt(3) * b * w / (2 * w**2 + c)).min(axis=-1))
 
 
-def width_intervals(forms: Floats, q: float) -> tuple[Floats, Floats]:
+def width_intervals(forms: Floats, q: float | Floats) -> tuple[Floats, Floats]:
     """Return smallest and largest width of each strip with mean ratio at least q, two of (n_strips,).
 
-    forms holds `strip_form` of each strip, (n_strips, 2, 2); (inf, -inf) where no width reaches q.
+    forms holds `strip_form` of each strip, (n_strips, 2, 2), q one quality or one a strip, (n_strips, 1);
+    (inf, -inf) where no width reaches q.
     """
     b, c = forms[..., 0], forms[..., 1]
     root = 12 * b**2 - 8 * q**2 * c
