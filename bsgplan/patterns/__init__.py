@@ -2,6 +2,7 @@
 
 from .bounds import Bounds, bounds, fan_angle, fan_edge_ratio, fan_quality, valences_of_quality
 from .length import BestLength, best_length, length_of_layers
+from .moving import move_vertices
 from .pattern import Pattern
 from .realise import Realised, realise, relative_irregularity, vertex_irregularity_of_fronts
 from .search import Found, search
@@ -27,6 +28,7 @@ __all__ = [
     "fan_edge_ratio",
     "fan_quality",
     "length_of_layers",
+    "move_vertices",
     "paper_spacing",
     "realise",
     "relative_irregularity",
