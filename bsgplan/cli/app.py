@@ -25,6 +25,8 @@ With --debug an error shows its traceback.
 COMMANDS = {
     "info": ("bsgplan.cli.info:info", "Show what is in a mesh."),
     "estimate": ("bsgplan.cli.estimate:estimate", "Plan the blocks of a mesh."),
+    "pattern": ("bsgplan.cli.pattern:pattern", "Show what a pattern is worth."),
+    "patterns": ("bsgplan.cli.patterns:patterns", "Find the best patterns of a transition."),
 }
 """Import path and help of each command; its module is imported when the command runs, not before."""
 
