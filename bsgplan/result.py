@@ -56,7 +56,8 @@ class PlannedMesh:
         """Return the matplotlib Figure of the first plan, written to path if given."""
         from .report.figure import figure, save_figure
 
-        result = figure(self.plan, projection=self.mesh_file.projection, name=Path(self.mesh_file.path).name)
+        name = "/".join(Path(self.mesh_file.path).parts[-2:])
+        result = figure(self.plan, projection=self.mesh_file.projection, name=name)
         if path is not None:
             save_figure(result, path)
         return result

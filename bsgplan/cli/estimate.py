@@ -20,13 +20,13 @@ def estimate(
     blocks: int | None = None,
     objective: str = "balanced",
     size: str | None = None,
-    lonlat: Annotated[bool, Parameter(negative=())] = False,
-    region: str | None = None,
+    lonlat: Annotated[bool, Parameter(negative=(), show_default=False)] = False,
+    region: Annotated[str | None, Parameter(allow_leading_hyphen=True)] = None,
     persistence: float = 1.3,
     plateau: float = 0.05,
     gradient_limit: float = 0.6,
-    candidates: Annotated[bool, Parameter(negative=())] = False,
-    json: Annotated[bool, Parameter(negative=())] = False,
+    candidates: Annotated[bool, Parameter(negative=(), show_default=False)] = False,
+    json: Annotated[bool, Parameter(negative=(), show_default=False)] = False,
     save: Path | None = None,
     figure: Path | None = None,
     vtk: Path | None = None,
@@ -65,9 +65,9 @@ def estimate(
     figure
         Draw size field, regions, patterns and budget to this .png, .svg or .pdf.
     vtk
-        Write the mesh with regions, sizes, front coordinate, charge and block fronts to this .vtu.
+        Write the mesh with regions, sizes, front coordinate, charge and block fronts to this .vtu or .vtk.
     vtk_patterns
-        Write the chosen patterns as subdivided blocks to this .vtu.
+        Write the chosen patterns as subdivided blocks to this .vtu or .vtk.
     """
     sizes = block_sizes(tris_per_block, blocks)
     check_options(objective, persistence, plateau, gradient_limit)
@@ -81,6 +81,7 @@ def estimate(
     from .progress import stages
 
     check_writable(save, figure, vtk, vtk_patterns)
+    check_suffixes(figure, vtk, vtk_patterns)
     with stages() as progress:
         progress("reading")
         result = plan_blocks(
@@ -147,6 +148,18 @@ def check_options(objective: str, persistence: float, plateau: float, gradient_l
     ):
         if not (isfinite(value) and value > least):
             raise InvalidOption(f"{name} {value:g} is not above {least:g}; give for example {example}")
+
+
+def check_suffixes(figure: Path | None, vtk: Path | None, vtk_patterns: Path | None) -> None:
+    """Raise InvalidOption for a picture or VTK file of another format, before any work is done."""
+    from ..io.vtk_cells import check_suffix
+    from ..report.figure import check_figure_suffix
+
+    if figure:
+        check_figure_suffix(figure)
+    for path in (vtk, vtk_patterns):
+        if path:
+            check_suffix(path)
 
 
 def _polygon(region: str | None) -> Any:

@@ -19,8 +19,8 @@ def info(
     file: Path,
     /,
     *,
-    lonlat: Annotated[bool, Parameter(negative=())] = False,
-    json: Annotated[bool, Parameter(negative=())] = False,
+    lonlat: Annotated[bool, Parameter(negative=(), show_default=False)] = False,
+    json: Annotated[bool, Parameter(negative=(), show_default=False)] = False,
 ) -> None:
     """Show what is in a mesh: counts, topology, quality, sizes, irregularity, boundaries, arrays.
 

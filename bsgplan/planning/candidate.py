@@ -103,7 +103,10 @@ def strip_cap(m: int, n: int) -> float:
 
 def _candidate(pattern: Pattern, shape: Shape, tris_per_block: int, wanted: float, error: float) -> Candidate:
     spacing = best_spacing(pattern, shape)
-    return Candidate(pattern, tris_per_block, error, wanted, bounds(pattern), spacing, _objection(pattern))
+    objection = _objection(pattern)
+    if objection is None and spacing.q_min <= 0:
+        objection = "its blocks turn inside out in the shape of this region, wherever its fronts stand"
+    return Candidate(pattern, tris_per_block, error, wanted, bounds(pattern), spacing, objection)
 
 
 def _objection(pattern: Pattern) -> str | None:

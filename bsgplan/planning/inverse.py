@@ -44,18 +44,18 @@ def within(plan_at: Callable[[int], Plan], n_triangles: float, n_blocks: int) ->
 
     Any larger block that the mesh carries needs fewer still, and more triangles. plan_at makes the plan for
     a number of triangles per block; sides s whose n_triangles / s^2 exceeds n_blocks are not tried, nor
-    more once the need no longer falls. Raises NoPatternFits with the least need and the driver that forbids
-    fewer, InvalidOption where n_blocks is under 1.
+    more once the need no longer falls or a block is larger than the mesh. Raises NoPatternFits with the
+    least need and the driver that forbids fewer, InvalidOption where n_blocks is under 1.
     """
     if n_blocks < 1:
         raise InvalidOption(f"{n_blocks} blocks is under 1; give the most blocks you accept")
     side = max(1, ceil(sqrt(n_triangles / n_blocks) * (1 - COUNT_TOLERANCE)))
     least: tuple[int, int, str] | None = None
     stalled = 0
-    while stalled < PATIENCE:
+    while stalled < PATIENCE and (least is None or side * side <= n_triangles):
         plan = plan_at(side * side)
         found = need(plan)
-        if found.n_blocks <= n_blocks:
+        if found.n_blocks <= n_blocks and side * side <= n_triangles:
             return plan
         if least is None or found.n_blocks < least[0]:
             least, stalled = (found.n_blocks, side * side, found.driver), 0

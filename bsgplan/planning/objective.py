@@ -28,13 +28,13 @@ def _quality(c: Candidate) -> tuple[float, ...]:
 
 
 def _balanced(c: Candidate) -> tuple[float, ...]:
-    # one unit each: 20 % off in size, 20 % off in the count, .1 short of good quality, and as much
-    # irregularity again as the two ends of the transition impose
+    # one unit each: 15 % off in size, 25 % off in the count, .1 short of good quality, and as much
+    # irregularity as the two ends of the transition impose
     counts = c.pattern.counts
     imposed = max(1, abs(counts[0] - counts[-1]))
     return (
-        c.misfit / 0.2
-        + c.count_misfit / 0.2
+        c.misfit / 0.15
+        + c.count_misfit / 0.25
         + max(0.0, GOOD_QUALITY - c.q_min) / 0.1
         + c.pattern.irregularity.positive / imposed,
     )

@@ -11,8 +11,13 @@ import numpy as np
 from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import connected_components
 
-from ..arrays import Bools, Floats, Ints
+from ..arrays import Bools, Floats, Ints, sums_by
 from ..mesh import Mesh
+from ..mesh.quality import angles
+
+OWN_KIND = 4.0
+"""A neighbour of a region's own kind, zone or transition, is as welcome as one with so much more border:
+the slivers of a steep transition around a plateau belong together, and not to the plateau."""
 
 
 def compact(*keys: Ints) -> Ints:
@@ -75,13 +80,14 @@ def smooth_borders(mesh: Mesh, label: Ints, *, rounds: int) -> Ints:
 
 
 def merge_small(
-    mesh: Mesh, label: Ints, log_h: Floats, weight: Floats, *, least: Floats, width: float
+    mesh: Mesh, label: Ints, log_h: Floats, weight: Floats, *, kind: Bools, least: Floats, width: float
 ) -> Ints:
     """Return labels where no region is under its least triangles or width layers thick, (n_triangles,).
 
     The smallest joins first, the neighbour with the longest common border (in edges) weighed against the
-    step in mean log size between the two: border / (0.1 + step). Thickness is triangles per border edge.
-    A region without neighbours stays. log_h and weight are one value a triangle, least one a label.
+    step in mean log size between the two: border / (0.1 + step), and OWN_KIND times that for a neighbour of
+    its own kind. Thickness is triangles per border edge. A region without neighbours stays. log_h and
+    weight are one value a triangle, kind and least one a label.
     """
     n = int(label.max()) + 1
     parent = np.arange(n)
@@ -98,7 +104,12 @@ def merge_small(
         if size >= least[i] and size >= width * edges_around:
             continue
         mean = moment[i] / total[i]
-        best = max(border[i], key=lambda j: (border[i][j] / (0.1 + abs(mean - moment[j] / total[j])), -j))
+
+        def fit(j: int, i: int = i, mean: float = mean) -> tuple[float, int]:
+            favour = OWN_KIND if kind[i] == kind[j] else 1.0
+            return favour * border[i][j] / (0.1 + abs(mean - moment[j] / total[j])), -j
+
+        best = max(border[i], key=fit)
         _join(border, rim, i, best)
         parent[i] = best
         total[best] += total[i]
@@ -144,10 +155,14 @@ def _near_border(mesh: Mesh, label: Ints, rings: int) -> Bools:
 
 
 def _ring_average(mesh: Mesh) -> csr_array:
-    """Return the matrix that averages triangle values over the triangles around the corners."""
+    """Return the matrix that averages triangle values around the corners, weighed by their angles.
+
+    Weighed by number, a border would creep from the fine side, with its many triangles, into the coarse.
+    """
     n, rows = mesh.n_triangles, np.repeat(np.arange(mesh.n_triangles), 3)
     corner = mesh.triangles.ravel()
-    share = 1.0 / (3 * mesh.topology.n_cells_at[corner])
+    angle = angles(mesh.corner_edge_lengths).ravel()
+    share = angle / (3 * sums_by(corner, angle, mesh.n_points)[corner])
     spread = csr_array((np.ones(3 * n), (rows, corner)), shape=(n, mesh.n_points))
     gather = csr_array((share, (corner, rows)), shape=(mesh.n_points, n))
     return csr_array(spread @ gather)

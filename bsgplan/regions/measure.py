@@ -24,7 +24,7 @@ def find_regions(
     label, is_uniform = segment(size, tris_per_block=tris_per_block, persistence=persistence, plateau=plateau)
     weight = sums_by(label, size.triangle_weights, len(is_uniform))
     is_uniform = is_uniform | (weight < tris_per_block)  # a component smaller than a block is no transition
-    return measure_regions(size, label, is_uniform, tris_per_block=tris_per_block, persistence=persistence)
+    return measure_regions(size, label, is_uniform, persistence=persistence)
 
 
 def measure_regions(
@@ -32,14 +32,13 @@ def measure_regions(
     label: Ints,
     is_uniform: Bools,
     *,
-    tris_per_block: int = 16,
     persistence: float = PERSISTENCE,
 ) -> Regions:
     """Return the regions of given labels, (n_triangles,), -1 for triangles that belong to none."""
     mesh, n = size.mesh, len(is_uniform)
     shown = label >= 0
     inside = np.where(shown, label, n)  # the rest gets a label of its own, dropped below
-    measured = profiles(size, inside, tris_per_block=tris_per_block)
+    measured = profiles(size, inside)
     fluxes = edge_fluxes(size)
     charges = region_charges(inside, fluxes)
     irregularity = inner_irregularity(size, inside, n)

@@ -27,8 +27,8 @@ needs an edge or two to stop growing. Where log h is linear the share is e^(-2 |
 BLUR = 0.6
 """Beside a plateau, a slope under this share of the slope three edges away is blur, and belongs to it .."""
 
-NEARLY = 0.1
-""".. where the size is within 10 % of the plateau's .."""
+NEARLY = 0.08
+""".. where the size is within 8 % of the plateau's .."""
 
 ROUNDS = 4
 """.. and within so many triangles of it, two layers."""

@@ -15,12 +15,12 @@ from ..arrays import Floats, Ints, frozen_floats, sums_by
 from ..mesh.operators import gradient
 from ..sizing import SizeField
 
-SAMPLES = 4
+SAMPLES = 8
 """Levels by which the span of one triangle is represented: the share of its area below a level is then
-right to an eighth of the triangle."""
+right to a sixteenth of the triangle."""
 
 TRIANGLES_PER_BIN = 24
-"""A bin holds at least so many triangles (about 30 % noise each, 6 % in the mean), and 1.5 blocks."""
+"""A bin holds at least so many triangles: about 30 % noise each, 6 % in the mean."""
 
 MOST_BINS = 48
 """More bins than this add noise and no shape: patterns have fewer fronts."""
@@ -102,10 +102,9 @@ class Profile:
         return np.interp(depths, self.depths, self.levels)
 
 
-def profiles(size: SizeField, label: Ints, *, tris_per_block: int = 16) -> list[Profile]:
+def profiles(size: SizeField, label: Ints) -> list[Profile]:
     """Return the profile of each label, fine end first; label is one integer a triangle, 0 to n - 1."""
-    least = max(TRIANGLES_PER_BIN, 1.5 * tris_per_block)
-    edges, first = _bin_edges(size, label, least)
+    edges, first = _bin_edges(size, label)
     bin_of = _bins_of_samples(size, label, edges, first).ravel()
     slope = np.linalg.norm(gradient(size.mesh, size.log_h), axis=1) * size.mesh.areas
     weight, front, length = (
@@ -194,11 +193,13 @@ def _end_length(edges: Floats, lengths: Floats, side: int, inner: slice) -> floa
         return float(lengths.max())
     middle = ((edges[1:] + edges[:-1]) / 2)[inner]
     logs = np.log(np.maximum(lengths[inner], 1e-12 * lengths.max()))
-    trend = np.polyfit(middle - middle.mean(), logs, 1)[0]
-    reach = edges[1] if side == 0 else edges[-2]
-    trend = np.clip(trend * (reach - middle.mean()), -MOST_TREND, MOST_TREND)
+    slope = np.polyfit(middle - middle.mean(), logs, 1)[0]
+    level = np.median(logs - slope * (middle - middle.mean()))
+    nearest, end = (middle[0], edges[1]) if side == 0 else (middle[-1], edges[-2])
+    further = np.clip(slope * (end - nearest), -MOST_TREND, MOST_TREND)
+    length = np.exp(level + slope * (nearest - middle.mean()) + further)
     beside = lengths[:2] if side == 0 else lengths[-2:]
-    return float(min(np.exp(np.median(logs) + trend), MOST_GROWTH * beside.max()))
+    return float(min(length, MOST_GROWTH * beside.max()))
 
 
 def _stations(thickness: Floats) -> Floats:
@@ -206,7 +207,7 @@ def _stations(thickness: Floats) -> Floats:
     return np.concatenate([[0.0], ends - thickness / 2, ends[-1:]])
 
 
-def _bin_edges(size: SizeField, label: Ints, least: float) -> tuple[Floats, Ints]:
+def _bin_edges(size: SizeField, label: Ints) -> tuple[Floats, Ints]:
     """Return the bin edges of all regions in one array, and the first bin of each region, (n_labels + 1,)."""
     n_labels = int(label.max()) + 1
     log_h = size.log_h[size.mesh.triangles]
@@ -214,7 +215,7 @@ def _bin_edges(size: SizeField, label: Ints, least: float) -> tuple[Floats, Ints
     order = np.lexsort((middle, label))
     weight = size.triangle_weights[order]
     total = np.bincount(label, size.triangle_weights, n_labels)
-    n_bins = np.clip(total / least, 1, MOST_BINS).astype(np.int64)
+    n_bins = np.clip(total / TRIANGLES_PER_BIN, 1, MOST_BINS).astype(np.int64)
     low, high = np.full(n_labels, np.inf), np.full(n_labels, -np.inf)
     np.minimum.at(low, label, log_h.min(axis=1))
     np.maximum.at(high, label, log_h.max(axis=1))

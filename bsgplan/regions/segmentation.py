@@ -23,6 +23,9 @@ LEAST_BLOCKS = 4
 """A transition of fewer blocks than this joins a neighbour: 2:2 on two fronts. A uniform zone needs one; a
 transition whose sizes differ by less than the persistence joins a neighbour whatever its blocks."""
 
+LEVEL_SHARE = 0.8
+"""A region is a uniform zone where so much of it has one size, that of its plateau, to the persistence."""
+
 LEAST_WIDTH = 0.5
 """A region thinner than this many block layers joins a neighbour."""
 
@@ -44,20 +47,30 @@ def segment(
         is_uniform = _zone_share(label, weight, is_zone) > 0.5
         least = np.where(is_uniform, 1.0, LEAST_BLOCKS) * tris_per_block
         least[~is_uniform & (spread_of(label, log_h) < persistence)] = np.inf  # no transition: joins one
-        return labels.merge_small(mesh, label, log_h, weight, least=least, width=LEAST_WIDTH * side)
+        width = LEAST_WIDTH * side
+        return labels.merge_small(mesh, label, log_h, weight, kind=is_uniform, least=least, width=width)
 
     for _ in range(3):
         label = merged(label)
         label = labels.smooth_borders(mesh, labels.finest_first(label, log_h), rounds=6)
         label = labels.finest_first(labels.connected(mesh, label), log_h)
     label = labels.finest_first(merged(label), log_h)
-    return label, _zone_share(label, weight, is_zone) > 0.5
+    return label, _level_share(label, weight, is_zone, log_h, persistence) >= LEVEL_SHARE
 
 
 def _zone_share(label: Ints, weight: Floats, is_zone: Bools) -> Floats:
     """Return the share of each region that lies in uniform zones, (n_regions,)."""
     n = int(label.max()) + 1
     return sums_by(label, weight * is_zone, n) / sums_by(label, weight, n)
+
+
+def _level_share(label: Ints, weight: Floats, is_zone: Bools, log_h: Floats, persistence: float) -> Floats:
+    """Return the share of each region whose size is that of its uniform zones, to the persistence."""
+    n = int(label.max()) + 1
+    in_zone = sums_by(label, weight * is_zone, n)
+    level = sums_by(label, weight * is_zone * log_h, n) / np.where(in_zone > 0, in_zone, 1.0)
+    is_level = (np.abs(log_h - level[label]) < persistence) & (in_zone > 0)[label]
+    return _zone_share(label, weight, is_level)
 
 
 def _monotone_cells(mesh: Mesh, log_h: Floats, persistence: float) -> Ints:

@@ -68,13 +68,19 @@ def save_figure(drawn: Figure, path: str | os.PathLike[str]) -> None:
 
     Raises InvalidOption for another suffix, OutputError where it cannot be written.
     """
+    check_figure_suffix(path)
     target = Path(path)
-    if target.suffix.lower() not in SUFFIXES:
-        raise InvalidOption(
-            f"{os.fspath(path)}: suffix {target.suffix!r} is no figure format; write {', '.join(SUFFIXES)}"
-        )
     with replacing(target) as temporary:
         drawn.savefig(temporary, dpi=DOTS, bbox_inches="tight", pad_inches=0.1)
+
+
+def check_figure_suffix(path: str | os.PathLike[str]) -> None:
+    """Raise InvalidOption unless the suffix is that of a figure format."""
+    suffix = Path(path).suffix
+    if suffix.lower() not in SUFFIXES:
+        raise InvalidOption(
+            f"{os.fspath(path)}: suffix {suffix!r} is no figure format; write {', '.join(SUFFIXES)}"
+        )
 
 
 def size_title(_: Scene) -> str:

@@ -8,7 +8,7 @@ from math import isqrt
 from ..planning import OBJECTIVES, Candidate, Plan, RegionPlan, choose
 from ..planning.plan import n_refinements
 from ..sizing.charge import NOISE
-from .table import Column, Table, Value
+from .table import QUALITY, Column, Table, Value, number
 
 LONGEST_PATTERN = 28
 """Characters of a pattern shown in a row; the rest is in the JSON document."""
@@ -38,11 +38,11 @@ def regions_table(plan: Plan) -> Table:
         Column("pattern"),
         Column("blocks"),
         Column("planned tris"),
-        Column("q_min mesh", "", ".2g"),
-        Column("plan", "", ".2g"),
-        Column("q_bound", "", ".2g"),
+        Column("q_min mesh", "", QUALITY),
+        Column("q_min plan", "", QUALITY),
+        Column("q_bound", "", QUALITY),
         Column("iota+ mesh"),
-        Column("plan"),
+        Column("iota+ plan"),
         Column("charge", "", ".1f"),
     )
     rows = [_region_row(p) for p in plan.region_plans]
@@ -50,7 +50,7 @@ def regions_table(plan: Plan) -> Table:
     inside = plan.regions.label >= 0
     total: tuple[Value, ...] = (
         "total",
-        f"{len(plan.regions)} regions",
+        f"{len(plan.regions)} region{'' if len(plan.regions) == 1 else 's'}",
         sum(p.region.n_triangles for p in plan.region_plans),
         *(None, None, None),
         plan.n_blocks,
@@ -76,7 +76,7 @@ def region_table(plan: RegionPlan) -> Table:
     rows: list[tuple[Value, ...]] = [
         ("# blocks", None, *(c.n_blocks for c in shown)),
         ("# triangles", region.n_triangles, *(c.planned_triangles for c in shown)),
-        ("q_min", f"{region.q_min:.2f}", *(f"{c.q_min:.2f}" for c in shown)),
+        ("q_min", number(region.q_min, QUALITY), *(number(c.q_min, QUALITY) for c in shown)),
         ("q_bound", None, *(f"< {c.bounds.q_bound:.2f}" for c in shown)),
         ("iota+", region.irregularity.positive, *(c.pattern.irregularity.positive for c in shown)),
         (
@@ -110,7 +110,7 @@ def totals_table(plan: Plan) -> Table:
     rows: tuple[tuple[Value, ...], ...] = (
         ("# blocks", None, *blocks),
         ("# triangles", n_triangles, *(n * plan.tris_per_block for n in blocks)),
-        ("q_min", f"{q_min:.2g}", *(None if q is None else f"{q:.2f}" for q in least)),
+        ("q_min", number(q_min, QUALITY), *(None if q is None else number(q, QUALITY) for q in least)),
         ("iota+", sum(p.region.irregularity.positive for p in plan.region_plans), *irregular),
     )
     note = (
@@ -173,7 +173,7 @@ def block_sizes_table(plans: Sequence[Plan]) -> Table:
         Column("regions"),
         Column("blocks"),
         Column("planned", "triangles"),
-        Column("q_min", "", ".2f"),
+        Column("q_min", "", QUALITY),
         Column("iota+"),
         Column("by count", "blocks", ".0f"),
         Column("gradient-limited", "blocks", ".0f"),
@@ -253,9 +253,17 @@ def _heading(c: Candidate, plan: RegionPlan) -> str:
 
 
 def _shortened(words: str) -> str:
+    """Return words, or their first and last parts where they are long, cut between counts."""
     if len(words) <= LONGEST_PATTERN:
         return words
-    return f"{words[: LONGEST_PATTERN - 7]}..{words[-5:]}"
+    mark = ":" if ":" in words else " "
+    parts = words.split(mark)
+    head, tail = parts[:1], parts[-2:]
+    for part in parts[1:-2]:
+        if len(mark.join([*head, part, "..", *tail])) > LONGEST_PATTERN:
+            break
+        head.append(part)
+    return mark.join([*head, "..", *tail])
 
 
 def _block(tris_per_block: int) -> str:

@@ -10,6 +10,10 @@ Value = str | int | float | None
 """A cell: None prints as a dash."""
 
 
+QUALITY = "quality"
+"""The format of a mean ratio."""
+
+
 @dataclass(frozen=True)
 class Column:
     """A column: its name, its unit, and the format of its numbers."""
@@ -93,7 +97,18 @@ def rich_table(table: Table) -> Any:
 def _text(value: Value, column: Column) -> str:
     if value is None:
         return "-"
-    return format(value, column.format) if isinstance(value, float) else str(value)
+    return number(value, column.format) if isinstance(value, float) else str(value)
+
+
+def number(value: float, how: str) -> str:
+    """Return a number as text: with `QUALITY` two decimals, or one digit where those would show 0.
+
+    >>> number(0.8, QUALITY), number(0.00041, QUALITY)
+    ('0.80', '0.0004')
+    """
+    if how != QUALITY:
+        return format(value, how)
+    return f"{value:.2f}" if abs(value) >= 0.01 else f"{value:.1g}"
 
 
 def _is_words(table: Table, i: int) -> bool:
