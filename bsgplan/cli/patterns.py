@@ -79,7 +79,7 @@ def _block_counts(elements: Pattern, side: int, fewest: int) -> tuple[int, int]:
     first, last = (round(count / side) for count in elements.counts)
     if side > 1 and min(first, last) < fewest:
         raise NoPatternFits(
-            f"a front of {min(elements.counts)} elements carries {min(first, last)} blocks of {side} x {side} "
-            f"triangles and needs {fewest}; choose smaller blocks"
+            f"a front of {min(elements.counts)} elements carries {min(first, last)} blocks of side {side}, "
+            f"it needs {fewest}; choose smaller blocks"
         )
     return first, last

@@ -58,7 +58,7 @@ def pattern_figure(pattern: Pattern, *, length: float | None = None, refine: int
     wide = max(1.6, high * length)
     total = len(panels) * (wide + 0.35) + 1.25, high + 1.15
     drawn = Figure(figsize=total, dpi=150)
-    shown = irregular if owner is None else irregular[owner]
+    shown = irregular if owner is None else np.where(owner >= 0, irregular[owner], 0)
     drawn.suptitle(_title(pattern, length), fontsize=10, y=1 - 0.12 / total[1], va="top")
     for k, (heading, blocks, q) in enumerate(panels):
         left = 0.3 + k * (wide + 0.35)
@@ -90,9 +90,9 @@ def _draw(
     axes.add_collection(PolyCollection(corners, facecolors="none", edgecolors="#303030", linewidths=thin))
     ends = np.flatnonzero(np.diff(realised.front)) + 1
     axes.add_collection(
-        LineCollection(np.split(points, ends), colors="black", linewidths=2.4 * thin, zorder=3)
+        LineCollection(np.split(points, ends), colors="black", linewidths=2.4 * thin, zorder=3, clip_on=False)
     )
-    _mark(axes, points, irregular, float(np.clip(72 * edge * 0.32, 2.0, 11.0)))
+    _mark(axes, points, irregular, float(np.clip(72 * edge * 0.32, 4.0, 11.0)))
     axes.set_xlim(points[:, 0].min(), points[:, 0].max())
     axes.set_ylim(points[:, 1].min(), points[:, 1].max())
     axes.set_aspect("equal")
@@ -117,7 +117,7 @@ def _mark(axes: Any, points: Floats, irregular: Ints, size: float) -> None:
 
 
 def _unrolled(pattern: Pattern, realised: Realised, positions: Floats) -> tuple[Realised, Ints]:
-    """Return rings as straight fronts cut open behind a block, and the vertex that each new one was."""
+    """Return rings as straight fronts cut open, and the vertex that each new one was, -1 for copies."""
     counts = np.array(pattern.counts)
     turns = np.cumsum([0.0, *(float(ring_turn(m, n)) for m, n in pattern.strips)])
     first = np.concatenate([[0], np.cumsum(counts)])
@@ -131,7 +131,10 @@ def _unrolled(pattern: Pattern, realised: Realised, positions: Floats) -> tuple[
     own = used - start[of]
     points = np.column_stack([positions[of], own / counts[of] + turns[of]])
     flat = Realised(points, triangles.reshape(-1, 3), of, is_closed=True)
-    return flat, first[of] + own % counts[of]
+    was = first[of] + own % counts[of]
+    is_first = np.zeros(len(was), dtype=bool)
+    is_first[np.unique(was, return_index=True)[1]] = True
+    return flat, np.where(is_first, was, -1)
 
 
 def _title(pattern: Pattern, length: float) -> str:
