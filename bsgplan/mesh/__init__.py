@@ -1,6 +1,6 @@
 """The noun Mesh, and the clean-up that makes one from raw arrays."""
 
-from .check import clean
+from .cleanup import clean
 from .mesh import Mesh
 
 __all__ = ["Mesh", "clean"]

@@ -1,12 +1,6 @@
-"""What makes raw arrays a mesh: the checks of the noun, and the clean-up that never surprises.
-
-`clean` orients, drops what is unused and flattens; it never moves or merges a point.
-"""
+"""The checks that make arrays of points and triangles a mesh, each naming the first few that fail."""
 
 from __future__ import annotations
-
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,55 +8,9 @@ from ..arrays import RELATIVE_TOLERANCE, Bools, Floats, Ints
 from ..errors import InvalidMesh
 from .quality import signed_areas
 
-if TYPE_CHECKING:
-    from .mesh import Mesh
-
 FLAT = 1e-13
 """A triangle whose area is below this share of its longest edge squared is degenerate: the rounding of
 coordinates in double precision, seven orders below the worst sliver met in practice."""
-
-
-@dataclass(frozen=True, eq=False)
-class Cleaned:
-    """A mesh and what was done to the raw arrays to get it."""
-
-    mesh: Mesh
-    kept_points: Ints
-    """Index in the raw points of each point of the mesh, (n_points,)."""
-    n_flipped: int
-    """Triangles that were clockwise and have been turned."""
-    n_unused: int
-    """Raw points of no triangle, dropped."""
-    is_flattened: bool
-    """True where a constant third coordinate was dropped."""
-
-
-def clean(points: Floats, triangles: Ints) -> Cleaned:
-    """Return the mesh of raw points, (n, 2 or 3), and triangles, (m, 3) in any orientation.
-
-    Points of no triangle are dropped, a constant third coordinate too, clockwise triangles of the plane
-    are turned. Raises InvalidMesh when what remains is no mesh.
-    """
-    from .mesh import Mesh
-
-    points, triangles = np.asarray(points, dtype=np.float64), np.asarray(triangles, dtype=np.int64)
-    check_shapes(points, triangles)
-    is_used = np.zeros(len(points), dtype=bool)
-    is_used[triangles] = True
-    kept = np.flatnonzero(is_used)
-    if len(kept) < len(points):
-        new_index = np.cumsum(is_used) - 1
-        points, triangles = points[kept], new_index[triangles]
-    is_flattened = points.shape[1] == 3 and is_planar(points)
-    if is_flattened:
-        points = points[:, :2]
-    n_flipped = 0
-    if points.shape[1] == 2:
-        is_clockwise = signed_areas(points, triangles) < 0
-        n_flipped = int(np.count_nonzero(is_clockwise))
-        if n_flipped:
-            triangles = np.where(is_clockwise[:, None], triangles[:, ::-1], triangles)
-    return Cleaned(Mesh(points, triangles), kept, n_flipped, len(is_used) - len(kept), is_flattened)
 
 
 def is_planar(points: Floats) -> bool:
