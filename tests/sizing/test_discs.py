@@ -1,8 +1,8 @@
 """The link to curvature on real Frontal-Delaunay meshes: what the generator puts into a disc is its charge.
 
-Sum of iota over the interior vertices of D = -(3/pi) * integral over D of Laplacian(log h) [Bunin]. A generator
-adds noise, so means over four meshes are compared (scripts/make_discs.py makes them), inside rho <= .6:
-generators push charge to the wall. Pairs of valence 5 and 7 that a circle parts count as a charge, so each
+Sum of iota over the interior vertices of D = -(3/pi) * integral over D of Laplacian(log h) [Bunin]. A
+generator adds noise, so means over four meshes are compared (scripts/make_discs.py makes them), inside
+rho <= .6: generators push charge to the wall. Pairs of valence 5 and 7 that a circle parts count as a charge, so each
 radius stands for seven around it.
 """
 
@@ -22,8 +22,8 @@ RADII = (0.4, 0.6)
 
 # flux of grad(log h) out of the disc of radius rho, in closed form
 FLUXES = {
-    "constant": lambda rho: 0.0,
-    "exponential": lambda rho: 0.0,
+    "constant": lambda _: 0.0,
+    "exponential": lambda _: 0.0,
     "cone": lambda rho: 2 * np.pi * rho**2 / (rho**2 + 0.25**2),
     "bump": lambda rho: -4 * np.pi * rho**2,
     "pit": lambda rho: 2 * np.pi * rho * 12.8 * rho * np.exp(-8 * rho**2) / (1 - 0.8 * np.exp(-8 * rho**2)),
