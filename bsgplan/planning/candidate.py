@@ -9,14 +9,17 @@ import numpy as np
 
 from ..patterns import Bounds, Pattern, Shape, Spacing, best_spacing, best_width, bounds
 from ..regions import Profile, Region
-from .fit import misfit, sequences
+from .fit import misfit, searched, sequences
 
 LEAST_STRIP_QUALITY = 0.55
 """A strip that cannot reach this mean ratio at any width is advised against: 3:1 and 4:1 have .50, 7:1 .24
 ([Zint & Grosso], Sec. 2.2: "asymmetric transitions like 3:1 should be avoided")."""
 
 MOST_SHOWN = 10
-"""Candidates kept for a region: enough for the best of every kind and the runners-up."""
+"""Candidates kept of those that fit a region: enough for the best of every kind and the runners-up."""
+
+MOST_SEARCHED = 4
+"""Candidates kept beside them of those that the search finds best in quality, blocks and irregularity."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,8 +69,11 @@ def candidates(region: Region, tris_per_block: int) -> tuple[Candidate, ...]:
     shape = region_shape(region.profile, side, is_closed=region.is_closed)
     wanted = region.weight / tris_per_block
     counts = sequences(region.profile, side, least=least)
-    worth = {c: _worth(c, region.profile, side, wanted) for c in counts}
+    best = searched(region.profile, side, is_closed=region.is_closed)
+    worth = {c: _worth(c, region.profile, side, wanted) for c in [*counts, *best]}
     kept = _prune(sorted(counts, key=lambda c: (worth[c], len(c), c)))
+    more = sorted(set(best) - set(kept), key=lambda c: (worth[c] - best[c], len(c), c))
+    kept += more[:MOST_SEARCHED]
     made = [
         _candidate(
             Pattern(c, is_closed=region.is_closed),

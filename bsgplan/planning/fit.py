@@ -7,6 +7,9 @@ integers near them is found by dynamic programming over pairs of neighbouring fr
 
 the middle sum being Eq. 16 of [Zint & Grosso] with the ends of Eq. 17 and 18. A low price follows the size
 field, a high one saves irregular vertices; beside these stand the arithmetic and the geometric sequence.
+
+A second source looks at quality and knows of the profile only its ends and its length: the Pareto front of
+`patterns.search` over blocks, irregularity and quality, of which those near the profile are of use.
 """
 
 from __future__ import annotations
@@ -14,6 +17,9 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import Floats, Ints
+from ..errors import NoPatternFits
+from ..patterns import search
+from ..patterns.search import EXACT
 from ..regions import Profile
 
 TOLERANCE = 0.15
@@ -27,6 +33,12 @@ PRICES = (0.0, 0.3, 2.0)
 
 STEEP = 100.0
 """Cost per unit of ratio beyond 2 of a strip: 3:1 caps q_min at .5, so it is taken where nothing else is."""
+
+LEAST_SEARCHED = 0.55
+"""Mean ratio of a straight pattern under which the search leaves it out: steep strips, 3:1 has .50."""
+
+LONGEST_SEARCHED = 2.5
+"""Heights of a region beyond which it is not searched: its layers are near to uniform, and are many."""
 
 
 def sequences(profile: Profile, side: float, *, least: int = 1) -> list[tuple[int, ...]]:
@@ -52,6 +64,25 @@ def sequences(profile: Profile, side: float, *, least: int = 1) -> list[tuple[in
     if ideal < 4:
         found[direct] = None
     return list(found)
+
+
+def searched(profile: Profile, side: float, *, is_closed: bool) -> dict[tuple[int, ...], float]:
+    """Return the best sequences from end to end over the length, and their straight mean ratio.
+
+    Those with about layers / s strips, one less to two more, as `sequences` has them. None for regions with
+    more than EXACT blocks on a front or longer than LONGEST_SEARCHED: the search would take its time there.
+    """
+    least = 3 if is_closed else 1
+    fine, coarse = (max(least, round(float(t))) for t in block_counts(profile, side, 1))
+    length = float(profile.positions[-1] / profile.lengths.mean())
+    if max(fine, coarse) > EXACT or length > LONGEST_SEARCHED:
+        return {}
+    ideal = profile.layers / side
+    try:
+        found = search(fine, coarse, length=length, least_quality=LEAST_SEARCHED, is_closed=is_closed)
+    except NoPatternFits:
+        return {}
+    return {f.pattern.counts: f.q_min for f in found if -1 <= f.pattern.n_layers - np.floor(ideal) <= 2}
 
 
 def block_counts(profile: Profile, side: float, n_strips: int) -> Floats:
