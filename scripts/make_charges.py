@@ -1,8 +1,8 @@
 """Draw and tabulate for the documentation how irregular vertices follow the curvature of the size field.
 
-From tests/data/discs.npz (scripts/make_discs.py): docs/examples/charges.txt, the charge that the theory wants
+From tests/data/discs.npz (scripts/make_discs.py): docs/theory/charges.txt, the charge that the theory wants
 inside two radii beside the irregularity that the generator made and the budget that bsgplan reads off the
-mesh; docs/pictures/charges.png, one mesh of each field with its irregular vertices red (+) and blue (-).
+mesh; docs/theory/charges.png, one mesh of each field with its irregular vertices red (+) and blue (-).
 """
 
 from __future__ import annotations
@@ -36,8 +36,8 @@ FIELDS = {
 def main() -> None:
     """Write the table and the picture."""
     meshes = {name: load(name) for name in FIELDS}
-    (ROOT / "docs" / "examples" / "charges.txt").write_text(text(table(meshes)) + "\n")
-    picture(meshes).savefig(ROOT / "docs" / "pictures" / "charges.png", dpi=70)
+    (ROOT / "docs" / "theory" / "charges.txt").write_text(text(table(meshes)) + "\n")
+    picture(meshes).savefig(ROOT / "docs" / "theory" / "charges.png", dpi=70)
 
 
 def load(name: str) -> list[Mesh]:

@@ -2,8 +2,8 @@
 
 Sum of iota over the interior vertices of D = -(3/pi) * integral over D of Laplacian(log h) [Bunin]. A
 generator adds noise, so means over four meshes are compared (scripts/make_discs.py makes them), inside
-rho <= .6: generators push charge to the wall. Pairs of valence 5 and 7 that a circle parts count as a charge, so each
-radius stands for seven around it.
+rho <= .6: generators push charge to the wall. Pairs of valence 5 and 7 that a circle parts count as a
+charge, so each radius stands for seven around it.
 """
 
 from __future__ import annotations
