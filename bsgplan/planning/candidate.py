@@ -9,7 +9,7 @@ import numpy as np
 
 from ..patterns import Bounds, Pattern, Shape, Spacing, best_spacing, best_width, bounds
 from ..regions import Profile, Region
-from .fit import misfit, searched, sequences
+from .fit import arithmetic, misfit, searched, sequences
 
 LEAST_STRIP_QUALITY = 0.55
 """A strip that cannot reach this mean ratio at any width is advised against: 3:1 and 4:1 have .50, 7:1 .24
@@ -74,6 +74,7 @@ def candidates(region: Region, tris_per_block: int) -> tuple[Candidate, ...]:
     kept = _prune(sorted(counts, key=lambda c: (worth[c], len(c), c)))
     more = sorted(set(best) - set(kept), key=lambda c: (worth[c] - best[c], len(c), c))
     kept += more[:MOST_SEARCHED]
+    kept += [c for c in arithmetic(region.profile, side, least=least) if c not in kept]
     made = [
         _candidate(
             Pattern(c, is_closed=region.is_closed),

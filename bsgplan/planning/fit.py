@@ -85,6 +85,17 @@ def searched(profile: Profile, side: float, *, is_closed: bool) -> dict[tuple[in
     return {f.pattern.counts: f.q_min for f in found if -1 <= f.pattern.n_layers - np.floor(ideal) <= 2}
 
 
+def arithmetic(profile: Profile, side: float, *, least: int = 1) -> list[tuple[int, ...]]:
+    """Return the paper's own patterns for a profile: arithmetic, on the strips just under and over the ideal.
+
+    So 28 to 4 elements on 9.5 layers at s = 4 give 7:4:1 and 7:5:3:1 ([Zint & Grosso], Fig. 10).
+    """
+    ideal = profile.layers / side
+    fine, coarse = (max(least, round(t)) for t in block_counts(profile, side, 1).tolist())
+    strips = sorted({max(1, int(np.floor(ideal))), max(1, int(np.ceil(ideal)))})
+    return [_whole(np.linspace(fine, coarse, n + 1), least) for n in strips]
+
+
 def block_counts(profile: Profile, side: float, n_strips: int) -> Floats:
     """Return the real counts t_k that a profile asks for on n_strips + 1 fronts, (n_strips + 1,)."""
     depths = np.linspace(0.0, profile.layers, n_strips + 1)
