@@ -27,6 +27,7 @@ COMMANDS = {
     "estimate": ("bsgplan.cli.estimate:estimate", "Plan the blocks of a mesh."),
     "pattern": ("bsgplan.cli.pattern:pattern", "Show what a pattern is worth."),
     "patterns": ("bsgplan.cli.patterns:patterns", "Find the best patterns of a transition."),
+    "paper": ("bsgplan.cli.paper:paper", "Reproduce every table and figure of the paper."),
 }
 """Import path and help of each command; its module is imported when the command runs, not before."""
 
