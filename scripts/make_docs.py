@@ -1,4 +1,4 @@
-"""Make what the documentation shows: docs/examples/ and docs/pictures/, from the program as it stands.
+"""Make what the documentation shows: docs/examples/, docs/paper.md, docs/pictures/, from the program.
 
     python scripts/make_docs.py            # everything
     python scripts/make_docs.py --text     # the examples only, pictures stay as they are
@@ -13,7 +13,10 @@ import argparse
 import contextlib
 import io
 import os
+import re
 import shlex
+import shutil
+import tempfile
 import tomllib
 from pathlib import Path
 
@@ -67,8 +70,14 @@ DOCUMENTS: dict[str, tuple[str, ...]] = {
 }
 """The same for JSON documents, one of each schema."""
 
-DRAWN = ("shoreline", "islands", "aerofoil", "plate", "rectangle", "annulus", "square")
+CASES = ("shoreline", "islands", "aerofoil", "plate", "rectangle", "annulus", "square")
 """Cases with a picture in docs/pictures/."""
+
+PAPER = tuple(f"figure_{n}" for n in (1, 2, 3, 4, 5, 6, 7, 9, 10))
+"""Pictures of `bsgplan paper` that docs/paper.md shows."""
+
+DRAWN = (*CASES, *(f"paper_{name}" for name in PAPER))
+"""Pictures in docs/pictures/ that are made here."""
 
 
 def run(words: tuple[str, ...]) -> tuple[int, str, str]:
@@ -98,12 +107,32 @@ def document(words: tuple[str, ...]) -> str:
 
 def draw(name: str) -> int:
     """Draw the plan of a case as the command line does, with a palette; return the bytes written."""
-    from PIL import Image
-
     path = PICTURES / f"{name}.png"
     code, _, err = run(("estimate", case(name), "--figure", str(path)))
     if code:
         raise SystemExit(f"{name}: exit code {code}: {err}")
+    return shrink(path)
+
+
+def paper(*, draws: bool) -> None:
+    """Write docs/paper.md from the report of `bsgplan paper`, with its pictures; mmg (extra) is wanted."""
+    with tempfile.TemporaryDirectory() as folder:
+        report = Path(folder) / "report"
+        code, _, err = run(("paper", "--out", str(report)))
+        if code:
+            raise SystemExit(f"paper: exit code {code}: {err}")
+        page = (report / "report.md").read_text()
+        (ROOT / "docs" / "paper.md").write_text(re.sub(r"\]\((\w+\.png)\)", r"](pictures/paper_\1)", page))
+        for name in PAPER if draws else ():
+            picture = PICTURES / f"paper_{name}.png"
+            shutil.copyfile(report / f"{name}.png", picture)
+            print(f"{picture.name}  {shrink(picture)} bytes")
+
+
+def shrink(path: Path) -> int:
+    """Give a picture a palette and at most the width of a page; return the bytes written."""
+    from PIL import Image
+
     with Image.open(path) as picture:
         colored = picture.convert("RGB")
     colored.thumbnail((WIDEST, 2 * WIDEST), Image.Resampling.LANCZOS)
@@ -129,7 +158,9 @@ def main() -> None:
     for name, words in DOCUMENTS.items():
         (EXAMPLES / name).write_text(document(words))
         print(name)
-    for name in () if options.text else DRAWN:
+    paper(draws=not options.text)
+    print("paper.md")
+    for name in () if options.text else CASES:
         print(f"{name}.png  {draw(name)} bytes")
 
 
