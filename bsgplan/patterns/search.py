@@ -3,11 +3,11 @@
 For straight regions of height 1. Sequences are monotone: a transition's size is, so a front with fewer
 elements than a coarser one exceeds the size wanted there, which is an upper limit; fronts of equal counts may
 follow each other. (Over a long transition a sequence that goes below its coarse end can save blocks; the size
-forbids it.) Among those, and up to EXACT elements on the fine front, the answer is the exact Pareto front
-over blocks (fewer), iota+ (less) and q_min (more), to RESOLUTION in q_min (`search_exact`). Above, candidates
-come from dynamic programming with prices (`search_priced`) and from the arithmetic, geometric and halving
-sequences, improved by single fronts (`search_pool`); the answer is the front of those, hence never worse than
-the arithmetic and geometric sequences and the paper's.
+forbids it.) Sequences come from dynamic programming with prices (`search_priced`) and from the arithmetic,
+geometric and halving rules, improved by single fronts (`search_pool`); the answer is their Pareto front over
+blocks (fewer), iota+ (less) and q_min (more), hence never worse than the arithmetic and geometric sequences
+and the paper's. Up to EXACT elements and LONGEST_EXACT heights it is completed to the front of all sequences,
+exact to RESOLUTION in q_min (`search_exact`).
 """
 
 from __future__ import annotations
@@ -24,8 +24,10 @@ from .search_priced import priced_sequences
 from .search_strips import Known, front, known, qualities_over, strips_between
 
 EXACT = 16
-"""Largest fine front searched exactly: a second of CPU in the slowest case."""
-MOST = 512
+"""Largest fine front searched exactly."""
+LONGEST_EXACT = 2.0
+"""Longest transition searched exactly, in heights: longer ones are mostly layers of equal fronts."""
+MOST = 256
 """Largest fine front searched at all: time and memory grow with its square."""
 RESOLUTION = 1e-3
 """Mean ratios that differ by less count as equal: the digits that are printed."""
@@ -93,17 +95,24 @@ def _pool(
     fine: int, coarse: int, length: float | None, least_quality: float, *, is_closed: bool
 ) -> list[Known]:
     strips = strips_between(fine, coarse, is_closed=is_closed)
-    sequences = regular_sequences(fine, coarse, length)
-    if fine > EXACT:
-        sequences = list(
-            dict.fromkeys([*sequences, *priced_sequences(strips, length, least_quality=least_quality)])
-        )
+    priced = priced_sequences(strips, length, least_quality=least_quality)
+    sequences = list(dict.fromkeys([*regular_sequences(fine, coarse, length), *priced]))
     qualities = qualities_over(sequences, length, is_closed=is_closed)
     pool = [known(c, float(q)) for c, q in zip(sequences, qualities, strict=True)]
     good = [k for k in pool if k.quality >= least_quality]
-    if fine > EXACT:
-        return improved(good, length, least_quality=least_quality, is_closed=is_closed) or pool
-    return exact_front(strips, length, good, least_quality=least_quality) or pool
+    good = improved(good, length, least_quality=least_quality, is_closed=is_closed)
+    if is_exact(fine, length):
+        good = exact_front(strips, length, good, least_quality=least_quality)
+    return good or pool
+
+
+def is_exact(fine: int, length: float | None) -> bool:
+    """Return whether the search proves its answer: up to EXACT elements and LONGEST_EXACT heights.
+
+    >>> is_exact(16, None), is_exact(16, 100.0), is_exact(17, 1.0)
+    (True, False, False)
+    """
+    return fine <= EXACT and (length is None or length <= LONGEST_EXACT)
 
 
 def _equal_fronts(count: int, length: float | None, *, is_closed: bool) -> list[Known]:

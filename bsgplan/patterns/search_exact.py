@@ -25,6 +25,14 @@ from .search_strips import SLACK, Counts, Known, Strips, front, known, qualities
 STEP = 1e-4
 """Rise of Q above the worst pattern known: two more digits than anybody prints."""
 
+MOST_LABELS = 150_000
+"""Partial sequences of one round, at most: half a second. Only long transitions to many elements have more,
+near the best quality of all, where intervals shrink to points and leave nothing out."""
+
+
+class TooManyLabels(Exception):  # noqa: N818 - never leaves this module
+    """A round has more than MOST_LABELS partial sequences."""
+
 
 def exact_front(
     strips: Strips, length: float | None, pool: Iterable[Known], *, least_quality: float
@@ -33,12 +41,16 @@ def exact_front(
 
     The length is in heights, None for each sequence's best; pool holds sequences known beforehand.
     Every sequence of mean ratio at least least_quality is matched by a returned one with no more blocks,
-    no more iota+, and no less mean ratio but for STEP.
+    no more iota+, and no less mean ratio but for STEP; above a quality at which there are more than
+    MOST_LABELS partial sequences only by the best of those known.
     """
     found, q = front(pool), least_quality
     while True:
         incumbents = [k for k in found if k.quality >= q]
-        new = sequences_at(strips, length, q, incumbents)
+        try:
+            new = sequences_at(strips, length, q, incumbents)
+        except TooManyLabels:
+            return [k for k in found if k.quality >= least_quality]
         if new:
             qualities = qualities_over(new, length, is_closed=strips.is_closed)
             found = front([*found, *(known(c, max(q, r)) for c, r in zip(new, qualities, strict=True))])
@@ -51,7 +63,7 @@ def exact_front(
 def sequences_at(strips: Strips, length: float | None, q: float, incumbents: Iterable[Known]) -> list[Counts]:
     """Return sequences that reach q over the length: one for each pair of least blocks and iota+.
 
-    Pairs that an incumbent, known to reach q, has or betters are left out.
+    Pairs that an incumbent, known to reach q, has or betters are left out. Raises TooManyLabels.
 
     >>> from .search_strips import strips_between
     >>> sequences_at(strips_between(4, 1), 0.75, 0.86, [])
@@ -66,6 +78,8 @@ def sequences_at(strips: Strips, length: float | None, q: float, incumbents: Ite
             layer = step.best(layer).numbered(n_labels)
             batches.append(layer)
             n_labels += len(layer)
+            if n_labels > MOST_LABELS:
+                raise TooManyLabels
             layer = step.moved(layer.take(step.is_short(layer)), count)
     ends = [b for b in batches if b.count == strips.coarse]
     if not ends:
@@ -145,6 +159,8 @@ class _Step:
     """Least sum of low from a count to the last, (fine + 1,)."""
     rest_high: Floats
     rest_blocks: Floats
+    rate: Floats
+    """Least blocks per largest width of any strip from a count on, (fine + 1,)."""
     bars: Floats
     """Blocks that a sequence must stay under, by its iota+, (n,)."""
 
@@ -161,7 +177,10 @@ class _Step:
             below = slice(strips.coarse, count)
             for rest, add in zip(rests, adds, strict=True):
                 rest[count] = (add[count, below] + rest[below]).min()
-        return cls(low, high, length or 0.0, rests[0], rests[1], rests[2], bars)
+        finite = np.isfinite(low) & (high > 0)
+        rates = np.where(finite, (size[:, None] + size) / np.where(finite, high, 1.0), np.inf).min(axis=1)
+        rate = np.minimum.accumulate(rates)
+        return cls(low, high, length or 0.0, rests[0], rests[1], rests[2], rate, bars)
 
     def arrivals(self, batches: list[_Labels], count: int) -> _Labels:
         """Return the labels of finer counts one strip further, at this count."""
@@ -189,7 +208,11 @@ class _Step:
         count = labels.count
         bar = self.bars[np.minimum(labels.positive, len(self.bars) - 1)]
         fits = labels.widths[0] + self.rest_low[count] <= self.length * (1 + SLACK)
-        labels = labels.take(fits & (labels.blocks + self.rest_blocks[count] < bar))
+        rest = np.full(len(labels), self.rest_blocks[count])
+        missing = self.length * (1 - SLACK) - labels.widths[1]
+        if np.isfinite(self.rate[count]):
+            rest = np.maximum(rest, missing * self.rate[count])
+        labels = labels.take(fits & (labels.blocks + np.ceil(rest - 1e-6) < bar))
         if len(labels) < 2:
             return labels
         # a sequence that no completion leaves too short gains nothing from more hi
