@@ -71,13 +71,14 @@ def _from_geojson(path: Path) -> BaseGeometry:
 def _checked(region: BaseGeometry, text: str) -> BaseGeometry:
     if region.geom_type not in {"Polygon", "MultiPolygon"}:
         raise InvalidOption(f"region {text!r} is a {region.geom_type}, not a polygon; {USE}")
+    x0, y0, x1, y1 = region.bounds
+    if not (np.isfinite(region.bounds).all() and x1 > x0 and y1 > y0):
+        raise InvalidOption(f"region {text!r} has no area; {USE}")
     if not region.is_valid:
         raise InvalidOption(
             f"region {text!r} is not a simple polygon ({shapely.is_valid_reason(region)}); "
             "list its corners in order"
         )
-    if not (np.isfinite(region.area) and region.area > 0):
-        raise InvalidOption(f"region {text!r} has no area; {USE}")
     return region
 
 
