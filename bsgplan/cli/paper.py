@@ -43,6 +43,6 @@ def paper(*, out: Path, json: Annotated[bool, Parameter(negative=())] = False) -
         sys.stdout.flush()
         first = off[0]
         raise PaperIsOff(
-            f"{len(off)} numbers differ, first {first.section}, {first.name}: {first.shown}, "
-            f"not {first.correct}; see {out / 'report.md'}"
+            f"{len(off)} of {len(report.items)} numbers differ, first {first.section}, {first.name}: "
+            f"{first.shown}, not {first.correct}; see {out / 'report.md'}"
         )

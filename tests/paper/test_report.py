@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import json
 import re
+import subprocess
+import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from bsgplan.cli import main
@@ -13,6 +16,7 @@ from bsgplan.paper import Report, Section, region, remesher, report, reproduce, 
 from bsgplan.paper.item import items_of
 from bsgplan.paper.printed import TABLES, printed
 from bsgplan.paper.write import markdown, write_report
+from bsgplan.patterns import Pattern, Shape, best_spacing, realise, vertex_irregularity_of_fronts
 
 PAGE = Path(__file__).parents[2] / "docs" / "paper.md"
 REMESHER = re.compile(r"^(\| a, isotropic|\| (\w+: )?Figure [67]:|Skipped:|Figure [67]:|\| mesh \|)")
@@ -53,6 +57,28 @@ def test_numbers_that_the_brief_of_the_paper_names(made: Report) -> None:
     assert ours(made, "figure_6", "b, 40:39:..:10", "irregular vertices") == 2
 
 
+def test_4_2_1_and_4_3_2_1_cross_just_under_a_length_of_1() -> None:
+    short, long = (Pattern.parse(text) for text in ("4:2:1", "4:3:2:1"))
+    gain = [
+        best_spacing(long, Shape.rectangle(x)).q_min - best_spacing(short, Shape.rectangle(x)).q_min
+        for x in (0.93, 0.99)
+    ]
+    assert gain[0] < 0 < gain[1]
+
+
+@pytest.mark.parametrize("text", strips.PATTERNS)
+def test_negative_irregularity_lies_on_the_front_with_more_elements(text: str) -> None:
+    realised = realise(Pattern.parse(text), Shape.rectangle(1.0), np.array([0.0, 1.0]))
+    first, second = vertex_irregularity_of_fronts(realised)
+    assert (first.positive, second.negative) == (0, 0)
+
+
+def test_the_package_loads_no_pictures_and_no_remesher() -> None:
+    words = "import sys, bsgplan.paper; print(sorted({'matplotlib', 'mmgpy', 'meshio'} & set(sys.modules)))"
+    done = subprocess.run([sys.executable, "-c", words], capture_output=True, text=True, check=True)
+    assert done.stdout == "[]\n"
+
+
 def test_all_slips_are_told_with_their_reason(made: Report) -> None:
     assert len(made.slips) == 10
     assert all(item.reason and item.agrees is not False for item in made.slips)
@@ -90,7 +116,7 @@ def test_a_number_that_differs_is_exit_code_1_and_told(
     assert main(["paper", "--out", str(tmp_path / "report")]) == 1
     out, err = capsys.readouterr()
     assert "Figure 1" in out
-    assert err.startswith("error: 1 numbers differ, first figure_1, b, refined, iota: -5, not -6")
+    assert err.startswith("error: 1 of 9 numbers differ, first figure_1, b, refined, iota: -5, not -6")
     assert "-5 !" in (tmp_path / "report" / "report.md").read_text()
 
 
@@ -128,7 +154,7 @@ def test_without_the_case_figure_9_is_skipped_and_says_so(tmp_path: Path) -> Non
 
 
 def test_without_mmg_the_remeshed_figures_say_so(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(__import__("sys").modules, "mmgpy", None)
+    monkeypatch.setitem(sys.modules, "mmgpy", None)
     with pytest.raises(remesher.NoRemesher, match="pip install"):
         remesher.remeshed(1.0, lambda x: 0.2 + 0 * x)
 
