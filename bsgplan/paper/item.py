@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from .printed import REASONS, printed
+from .printed import REASONS, printed, row_heading
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -38,8 +38,9 @@ class Item:
 
     @property
     def name(self) -> str:
-        """Row and column."""
-        return f"{self.row}, {self.column}"
+        """Row and column in words; the column "paper" goes without saying."""
+        row = f"{row_heading(self.section)} {self.row}" if self.row.isdigit() else self.row
+        return row if self.column == "paper" else f"{row}, {self.column}"
 
     @property
     def agrees(self) -> bool | None:

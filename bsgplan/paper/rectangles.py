@@ -73,8 +73,8 @@ def _section(
     equilateral = 4 / sqrt(3) * shape.length * fine * coarse  # integral of 4 / (sqrt(3) h^2), h linear
     text += (
         f" Remeshing (a): the paper's remesher is another one; ours, mmg, is given h linear from 1/{fine} to "
-        f"{Fraction(1, coarse)}, which {equilateral:.0f} equilateral triangles would fill; its irregular vertices are "
-        "counted without the corners."
+        f"{Fraction(1, coarse)}, which {equilateral:.0f} equilateral triangles would fill; its irregular "
+        "vertices are counted without the corners."
     )
     return Section(key, title, text, items_of(key, ours), draw, skipped)
 
