@@ -137,6 +137,4 @@ def summary_table(report: Report) -> Table:
 
 def _where(report: Report, item: Item) -> str:
     section = next(s for s in report.sections if s.key == item.section)
-    return (
-        f"{section.title.partition(':')[0]}: {item.row}{'' if item.column == 'paper' else f', {item.column}'}"
-    )
+    return f"{section.title.partition(':')[0]}: {item.name}"
