@@ -16,6 +16,9 @@ import pytest
 from bsgplan.cli import errors
 from bsgplan.cli.estimate import estimate
 from bsgplan.cli.info import info
+from bsgplan.cli.paper import paper
+from bsgplan.cli.pattern import pattern
+from bsgplan.cli.patterns import patterns
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
@@ -62,7 +65,9 @@ def test_constants_on_the_pages_are_those_of_the_code() -> None:
 
 
 def test_every_option_is_explained_and_none_is_made_up() -> None:
-    names = {*inspect.signature(estimate).parameters, *inspect.signature(info).parameters} - {"file"}
+    commands = (estimate, info, pattern, patterns, paper)
+    names = {name for command in commands for name in inspect.signature(command).parameters}
+    names -= {"file", "counts", "ends"}
     options = {f"--{name.replace('_', '-')}" for name in names} | {"--debug", "--help"}
     rows = set(re.findall(r"^\| `(--[a-z-]+)`", BOOK, flags=re.M))
     assert rows == options
