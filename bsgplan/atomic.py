@@ -18,7 +18,9 @@ def replacing(target: str | os.PathLike[str]) -> Iterator[Path]:
     On any error the new file is removed and the target stays as it was; an OSError becomes an OutputError
     that names the target.
     """
-    path = Path(target)
+    path = Path(os.path.realpath(target))
+    if path.exists() and not path.is_file():
+        raise OutputError(f"{os.fspath(target)}: is no regular file; give the name of one")
     try:
         handle, name = tempfile.mkstemp(prefix=f".{path.name}.", suffix=path.suffix, dir=path.parent)
         os.close(handle)

@@ -11,12 +11,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from functools import lru_cache
 
 import numpy as np
 import shapely
 from shapely.geometry.base import BaseGeometry
 
+from .arrays import sums_by
 from .errors import MeshReadError
 from .io import MeshFile
 from .mesh import clean
@@ -48,25 +48,26 @@ def plan_blocks(
     """Return a mesh file with its plans, one a block size.
 
     With n_blocks there is one plan, at the smallest block size that needs no more blocks than that. size
-    names a point or cell array; region is a polygon in the coordinates of the file, cut out first.
+    names a point or cell array; region is a polygon in the coordinates of the file, cut out first: each of
+    its connected pieces is one region.
     Raises what its steps raise; see `estimate`, `find_regions` and `within`.
     """
-    sizes = (tris_per_block,) if isinstance(tris_per_block, int) else tuple(tris_per_block)
+    sizes = tuple(int(n) for n in np.atleast_1d(tris_per_block))
     for n in sizes:
         check_block_size(n)
     cut = mesh_file if region is None else cut_out(mesh_file, region)
     progress("measuring sizes")
     field = size_of(cut, size)
 
-    @lru_cache(maxsize=1)
-    def drawn() -> Regions:
+    def drawn(n: int) -> Regions:
         label = connected(field.mesh, np.zeros(field.mesh.n_triangles, dtype=np.int64))
-        return measure_regions(field, label, np.zeros(int(label.max()) + 1, dtype=bool))
+        weight = sums_by(label, field.triangle_weights, int(label.max()) + 1)
+        return measure_regions(field, label, np.asarray(weight < n), persistence=persistence)
 
     def plan_at(n: int) -> Plan:
         progress(f"planning with {n} triangles per block")
         if region is not None:
-            regions = drawn()
+            regions = drawn(n)
         else:
             regions = find_regions(field, tris_per_block=n, persistence=persistence, plateau=plateau)
         return estimate(regions, tris_per_block=n, objective=objective, gradient_limit=gradient_limit)

@@ -80,7 +80,7 @@ def estimate(
     from .output import check_writable, show
     from .progress import stages
 
-    check_writable(save, figure, vtk, vtk_patterns)
+    check_writable(save, figure, vtk, vtk_patterns, source=file)
     check_suffixes(figure, vtk, vtk_patterns)
     with stages() as progress:
         progress("reading")

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..errors import OutputError
+from ..errors import InvalidOption, OutputError
 
 if TYPE_CHECKING:
     from ..report import Table
@@ -29,11 +29,17 @@ def show(tables: Sequence[Table]) -> None:
     sys.stdout.write("\n\n".join(text(table) for table in tables) + "\n")
 
 
-def check_writable(*paths: Path | None) -> None:
-    """Raise OutputError for the first path that cannot be written, before any work is done."""
-    for path in paths:
-        if path is None:
-            continue
+def check_writable(*paths: Path | None, source: Path | None = None) -> None:
+    """Raise OutputError for the first path that cannot be written, before any work is done.
+
+    InvalidOption where two outputs have one name, or one is the source.
+    """
+    given = [path for path in paths if path is not None]
+    for k, path in enumerate(given):
+        if path.resolve() in [other.resolve() for other in given[:k]]:
+            raise InvalidOption(f"{path}: two outputs have this name; give each its own")
+        if source is not None and path.resolve() == source.resolve():
+            raise InvalidOption(f"{path}: is the mesh file itself; give the output another name")
         folder = path.parent
         if path.is_dir():
             raise OutputError(f"{path}: is a folder; give a file name")

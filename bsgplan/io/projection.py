@@ -58,6 +58,17 @@ class Projection:
         longitude, latitude = self._map(points[:, 0], points[:, 1], inverse=True)
         return np.column_stack([self.west + np.mod(longitude - self.west, 360.0), latitude])
 
+    def to_unbroken_degrees(self, points: Floats) -> Floats:
+        """Return (longitude, latitude), (n, 2), degrees, with longitudes within 180 of the centre.
+
+        A mesh across the date line is not torn; its longitudes may pass 180.
+        """
+        degrees = self.to_degrees(points)
+        degrees[:, 0] = self.longitude + np.mod(degrees[:, 0] - self.longitude + 180.0, 360.0) - 180.0
+        if degrees[:, 0].mean() < self.west:
+            degrees[:, 0] += 360.0
+        return degrees
+
     def scale(self, points: Floats) -> Floats:
         """Return plane metres per true metre at points of the plane, (n,), dimensionless."""
         if not len(points):

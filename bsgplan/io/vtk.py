@@ -81,7 +81,7 @@ def write_plan(path: str | os.PathLike[str], plan: Plan, projection: Projection 
         "front_coordinate": np.concatenate([depth_at_points, np.repeat(lines.depth, 2)]),
     }
     if projection is not None:
-        points = projection.to_degrees(points)
+        points = projection.to_unbroken_degrees(points)
     write_cells(path, points, cells, point_data=point_data, cell_data=cell_data)
 
 

@@ -8,6 +8,9 @@ from ..arrays import RELATIVE_TOLERANCE, Bools, Floats, Ints
 from ..errors import InvalidMesh
 from .quality import signed_areas
 
+SMALLEST_EXTENT, LARGEST_EXTENT = 1e-60, 1e60
+"""Extents between which squares and fourth powers of lengths stay within double precision."""
+
 FLAT = 1e-13
 """A triangle whose area is below this share of its longest edge squared is degenerate: the rounding of
 coordinates in double precision, seven orders below the worst sliver met in practice."""
@@ -45,6 +48,9 @@ def check_mesh(points: Floats, triangles: Ints) -> None:
     check_shapes(points, triangles)
     if np.count_nonzero(np.bincount(triangles.ravel(), minlength=len(points))) < len(points):
         raise InvalidMesh("some points belong to no triangle; drop them with bsgplan.mesh.clean")
+    extent = float(np.ptp(points, axis=0).max())
+    if not SMALLEST_EXTENT < extent < LARGEST_EXTENT:
+        raise InvalidMesh(f"the mesh is {extent:g} across, beyond reckoning; give it in another unit")
     with np.errstate(over="ignore", invalid="ignore"):
         areas = signed_areas(points, triangles)
         corners = points[triangles]

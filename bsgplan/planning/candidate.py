@@ -53,8 +53,8 @@ class Candidate:
 
     @property
     def q_min(self) -> float:
-        """Least mean ratio of the straight-edged pattern in the region's shape."""
-        return self.spacing.q_min
+        """Least mean ratio of the straight-edged pattern in the region's shape; 0 where blocks turn over."""
+        return max(0.0, self.spacing.q_min)
 
     @property
     def count_misfit(self) -> float:

@@ -57,7 +57,7 @@ def sequences(profile: Profile, side: float, *, least: int = 1) -> list[tuple[in
         fine, coarse = (max(least, round(float(t))) for t in wanted[[0, -1]])
         found[_whole(np.linspace(fine, coarse, n + 1), least)] = None
         found[_whole(np.geomspace(fine, coarse, n + 1), least)] = None
-        for target in (wanted, same_blocks):
+        for target in (wanted, same_blocks, _followable(same_blocks)):
             for price in PRICES:
                 found[_best_sequence(np.maximum(target, least), price, least)] = None
     direct = _whole(block_counts(profile, side, 1), least)
@@ -113,6 +113,21 @@ def misfit(counts: tuple[int, ...], profile: Profile, side: float) -> float:
     along = (np.log(wanted / np.asarray(counts)) ** 2).mean()
     across = np.log(profile.layers / (side * n_strips)) ** 2
     return float(np.sqrt((along + across) / 2))
+
+
+def _followable(wanted: Floats) -> Floats:
+    """Return counts near wanted that at most double or halve from front to front, (n_fronts,).
+
+    The geometric mean of the largest such sequence below wanted and the smallest above, in its block count.
+    """
+    apart = np.log(2) * np.abs(np.subtract.outer(np.arange(len(wanted)), np.arange(len(wanted))))
+    logs = np.log(wanted)
+    middle = np.exp(((logs[None, :] + apart).min(axis=1) + (logs[None, :] - apart).max(axis=1)) / 2)
+    return middle * _n_blocks(wanted) / _n_blocks(middle)
+
+
+def _n_blocks(counts: Floats) -> float:
+    return float(counts.sum() + counts[1:-1].sum())
 
 
 def _whole(wanted: Floats, least: int) -> tuple[int, ...]:

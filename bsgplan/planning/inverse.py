@@ -29,11 +29,11 @@ class Need:
 def need(plan: Plan) -> Need:
     """Return the blocks needed at a plan's block size: the largest of patterns, gradient and boundary."""
     counts = {
+        "the boundary (three block edges around every loop)": plan.drivers.blocks_boundary,
         f"resolution (the patterns of {len(plan.regions)} regions)": plan.n_blocks,
         f"the size gradient (block size limited to a slope of {plan.gradient_limit:g})": round(
             plan.drivers.blocks_gradient_limited
         ),
-        "the boundary (three block edges around every loop)": plan.drivers.blocks_boundary,
     }
     driver = max(counts, key=lambda name: counts[name])
     return Need(counts[driver], driver)
@@ -57,10 +57,9 @@ def within(plan_at: Callable[[int], Plan], n_triangles: float, n_blocks: int) ->
         found = need(plan)
         if found.n_blocks <= n_blocks and side * side <= n_triangles:
             return plan
-        if least is None or found.n_blocks < least[0]:
-            least, stalled = (found.n_blocks, side * side, found.driver), 0
-        else:
-            stalled += 1
+        stalled = 0 if least is None or found.n_blocks < least[0] else stalled + 1
+        if least is None or found.n_blocks <= least[0]:  # of equals the last: its driver still binds
+            least = (found.n_blocks, side * side, found.driver)
         side += 1 if stalled == 0 else side // 4 + 1
     count, tris_per_block, driver = least if least is not None else (0, 1, "")
     raise NoPatternFits(

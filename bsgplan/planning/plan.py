@@ -17,9 +17,16 @@ from .fit import block_counts
 from .objective import OBJECTIVES, choose
 from .totals import GRADIENT_LIMIT, Drivers, drivers
 
+LARGEST_BLOCK = 10**8
+"""Triangles per block beyond which a number is a slip of the keyboard."""
+
 SHORT_FRONT = 0.9
 """A front with less than this share of a block's edge is too short for the block size; a tenth of it is
 measuring noise: the paper's region counts as 4 elements, not as 3.7."""
+
+
+MOST_MISFIT = 0.4
+"""ln of planned over wanted triangles, a factor of 1.5, beyond which a region is limited."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,9 +87,16 @@ class RegionPlan:
         for name, elements in (("coarsest", profile.coarse_elements), ("finest", profile.fine_elements)):
             if elements < SHORT_FRONT * side:
                 return (
-                    f"constrained by the {name} front, which only contains {_number(elements)} elements; "
-                    f"the largest block that fits has {self.largest_tris_per_block} triangles"
+                    f"constrained by the {name} front, which only contains {_count(elements, 'element')}; "
+                    f"the largest block that fits has {_plural(self.largest_tris_per_block, 'triangle')}"
                 )
+        if self.chosen.rejected:
+            return f"no pattern fits it; {self.chosen.pattern} is the least bad: {self.chosen.rejected}"
+        if self.chosen.count_misfit > MOST_MISFIT:
+            return (
+                f"no good pattern follows its fronts; {self.planned_triangles} triangles are planned where "
+                f"the size asks for {self.region.weight:.0f}"
+            )
         return None
 
 
@@ -166,6 +180,8 @@ def check_block_size(tris_per_block: int) -> None:
     """
     if tris_per_block < 1:
         raise InvalidOption(f"{tris_per_block} triangles per block is under 1; the nearest are 1 and 4")
+    if tris_per_block > LARGEST_BLOCK:
+        raise InvalidOption(f"{tris_per_block} triangles per block is over {LARGEST_BLOCK}; give fewer")
     side = isqrt(tris_per_block)
     if side**2 != tris_per_block:
         raise InvalidOption(
@@ -182,6 +198,14 @@ def n_refinements(tris_per_block: int) -> int | None:
     """
     k = (tris_per_block.bit_length() - 1) // 2
     return k if 4**k == tris_per_block else None
+
+
+def _plural(count: int, thing: str) -> str:
+    return f"{count} {thing}" + ("" if count == 1 else "s")
+
+
+def _count(number: float, thing: str) -> str:
+    return f"{_number(number)} {thing}" + ("" if round(number) == 1 else "s")
 
 
 def _number(elements: float) -> str:

@@ -94,26 +94,27 @@ def profiles(size: SizeField, label: Ints) -> list[Profile]:
     edges, first = bin_edges(size, label)
     bin_of = bins_of_samples(size, label, edges, first).ravel()
     slope = np.linalg.norm(gradient(size.mesh, size.log_h), axis=1) * size.mesh.areas
-    weight, front, length = (
+    weight, front, length, area = (
         sums_by(bin_of, np.repeat(value / SAMPLES, SAMPLES), int(first[-1]))
-        for value in (size.triangle_weights, slope / size.triangle_h, slope)
+        for value in (size.triangle_weights, slope / size.triangle_h, slope, size.mesh.areas)
     )
     result = []
     for k in range(len(first) - 1):
         inside = slice(first[k], first[k + 1])
         own_edges = edges[first[k] + k : first[k + 1] + k + 1]
-        result.append(_profile(own_edges, weight[inside], front[inside], length[inside]))
+        sums = (weight[inside], front[inside], length[inside], area[inside])
+        result.append(_profile(own_edges, *sums))
     return result
 
 
-def _profile(edges: Floats, weight: Floats, front: Floats, length: Floats) -> Profile:
+def _profile(edges: Floats, weight: Floats, front: Floats, length: Floats, area: Floats) -> Profile:
     """Return the profile of one region from the sums over its bins of log size.
 
-    The sums are integrals over a bin: weight of triangles, front of f du, length of L du. Noise smears the
-    two ends of a region over levels that hardly occur; such an end bin is shortened, by e^0.3 in size at
-    most, until its front is as long as the fronts beside it, which keeps its sums.
+    The sums are integrals over a bin: weight of triangles, front of f du, length of L du, area. Noise smears
+    the two ends of a region over levels that hardly occur; such an end bin is shortened, by e^0.3 in size
+    at most, until its front is as long as the fronts beside it, which keeps its sums.
     """
-    edges, weight, front, length = _without_empty_bins(edges, weight, front, length)
+    edges, weight, front, length, area = _without_empty_bins(edges, weight, front, length, area)
     lengths = length / np.diff(edges)
     ends = np.empty(2)
     for side, inner, inner_edge in ((0, slice(1, 7), edges[1]), (-1, slice(-7, -1), edges[-2])):
@@ -128,8 +129,8 @@ def _profile(edges: Floats, weight: Floats, front: Floats, length: Floats) -> Pr
     weight, counts, lengths = _absorb_ragged_end(weight, counts, np.maximum(length / step, TINY))
     n_absorbed = len(step) - len(counts)
     edges = np.concatenate([edges[:1], edges[1 + n_absorbed :]])
+    area = np.concatenate([[area[: n_absorbed + 1].sum()], area[n_absorbed + 1 :]])
     layers = weight / (2 * counts)
-    h = lengths / counts
     ends[0] = max(ends[0], lengths[0])
     end_counts = ends / np.exp(edges[[0, -1]])
     if n_absorbed:  # the fine end was ragged: its front is the first full one
@@ -139,13 +140,13 @@ def _profile(edges: Floats, weight: Floats, front: Floats, length: Floats) -> Pr
         counts=np.concatenate([end_counts[:1], counts, end_counts[1:]]),
         levels=np.concatenate([edges[:1], (edges[1:] + edges[:-1]) / 2, edges[-1:]]),
         lengths=np.concatenate([ends[:1], lengths, ends[1:]]),
-        positions=_stations(layers * h * np.sqrt(3) / 2),
+        positions=_stations(area / lengths),
     )
 
 
 def _without_empty_bins(
-    edges: Floats, weight: Floats, front: Floats, length: Floats
-) -> tuple[Floats, Floats, Floats, Floats]:
+    edges: Floats, weight: Floats, front: Floats, length: Floats, area: Floats
+) -> tuple[Floats, Floats, Floats, Floats, Floats]:
     """Return the edges and sums of the bins, each one without a contour drawn into the one before it.
 
     Few triangles of much weight (a named size far below the edges) need not reach every bin.
@@ -155,7 +156,7 @@ def _without_empty_bins(
     n = int(owner[-1]) + 1
     edges = np.concatenate([edges[:1], edges[np.flatnonzero(is_full)[1:]], edges[-1:]])
     length = np.maximum(sums_by(owner, length, n), TINY)
-    return edges, sums_by(owner, weight, n), sums_by(owner, front, n), length
+    return edges, sums_by(owner, weight, n), sums_by(owner, front, n), length, sums_by(owner, area, n)
 
 
 def _absorb_ragged_end(weight: Floats, counts: Floats, lengths: Floats) -> tuple[Floats, Floats, Floats]:

@@ -11,7 +11,11 @@ def drivers_table(plan: Plan) -> Table:
     """Return the block counts that do not depend on patterns, each with its formula."""
     d = plan.drivers
     rows: list[tuple[Value, ...]] = [
-        ("blocks by count", d.blocks_by_count, "triangles / triangles per block, Eq. 24"),
+        (
+            "blocks by count",
+            d.blocks_by_count,
+            "triangles the size asks for / triangles per block, Eq. 24",
+        ),
         (
             "blocks, gradient-limited",
             d.blocks_gradient_limited,

@@ -128,6 +128,8 @@ def zoom_box(view: View, size: SizeField) -> Floats | None:
     part = centres[: max(1, int(SHOWN_SHARE * len(centres)))]
     middle, half = (part.min(axis=0) + part.max(axis=0)) / 2, 0.55 * np.ptp(part, axis=0).max()
     half = min(half, ZOOM_UNDER * extent)
+    if not half > 0:
+        return None
     return np.array([middle - half, middle + half])
 
 

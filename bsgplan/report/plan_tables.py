@@ -131,6 +131,7 @@ def block_sizes_table(plans: Sequence[Plan]) -> Table:
         Column("iota+"),
         Column("by count", "blocks", ".0f"),
         Column("gradient-limited", "blocks", ".0f"),
+        Column("boundary floor", "blocks"),
         Column("limited regions"),
     )
     rows = tuple(
@@ -143,11 +144,15 @@ def block_sizes_table(plans: Sequence[Plan]) -> Table:
             p.irregularity.positive,
             p.drivers.blocks_by_count,
             p.drivers.blocks_gradient_limited,
+            p.drivers.blocks_boundary,
             sum(r.limited is not None for r in p.region_plans),
         )
         for p in plans
     )
-    note = "Where gradient-limited exceeds by count, larger blocks cannot follow the size any more."
+    note = (
+        "Where gradient-limited exceeds by count, larger blocks cannot follow the size any more; "
+        "no layout has fewer blocks than the boundary floor."
+    )
     return Table("How the number of blocks answers to the block size", columns, rows, (note,))
 
 
@@ -182,6 +187,9 @@ def _notes(plan: Plan) -> tuple[str, ...]:
     notes = []
     if any(not p.region.is_monotone for p in plan.region_plans):
         notes.append("* merged with a neighbour, no longer monotone.")
+    floor = plan.drivers.blocks_boundary
+    if plan.n_blocks < floor:
+        notes.append(f"! {plan.n_blocks} blocks are fewer than the {floor} that the boundary needs.")
     limited = [p for p in plan.region_plans if p.limited]
     notes += [f"! region {p.region.id}: {p.limited}." for p in limited]
     if n_refinements(plan.tris_per_block) is None:
@@ -223,4 +231,4 @@ def _shortened(words: str) -> str:
 def _block(tris_per_block: int) -> str:
     k = n_refinements(tris_per_block)
     side = isqrt(tris_per_block)
-    return f"{k} uniform refinements" if k is not None else f"split {side} x {side}"
+    return f"{k} uniform refinement{'' if k == 1 else 's'}" if k is not None else f"split {side} x {side}"

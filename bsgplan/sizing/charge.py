@@ -12,7 +12,9 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import Floats, Ints, sums_by
+from ..mesh import Mesh
 from ..mesh.operators import gradient, to_vertices
+from ..mesh.quality import angles
 from .field import SizeField
 from .smoothing import diffuse
 
@@ -27,7 +29,8 @@ def edge_fluxes(size: SizeField, *, reach: float = REACH) -> Floats:
     """Return the charge that flows through corner edges outwards, (n_triangles, 3), in units of iota.
 
     Column i belongs to the edge from corner i to corner i + 1, -(3/pi) g . n times its length; the two
-    triangles of an edge have opposite values.
+    triangles of an edge have opposite values. On a surface its own curvature is added, -(3/pi) times the
+    angle that is missing at corner i, so that a closed one has -6 chi in all.
     """
     mesh = size.mesh
     slope = smooth_slope(size, reach)
@@ -41,7 +44,32 @@ def edge_fluxes(size: SizeField, *, reach: float = REACH) -> Floats:
         normal /= np.linalg.norm(normal, axis=1, keepdims=True)
         outward = np.cross(along, normal[:, None, :])
     flux = np.einsum("tci,tci->tc", outward, (slope[start] + slope[end]) / 2)
+    if not mesh.is_planar:
+        flux = _balanced(mesh, flux) + _corner_curvature(mesh)
     return np.asarray(-3 / np.pi * flux)
+
+
+def _balanced(mesh: Mesh, flux: Floats) -> Floats:
+    """Return fluxes that are opposite on the two triangles of an edge, whose planes may differ."""
+    edge = mesh.topology.cell_edges
+    is_first = mesh.topology.edge_cells[edge, 0] == np.arange(mesh.n_triangles)[:, None]
+    sign = np.where(is_first, 1.0, -1.0)
+    n_sides = np.where(mesh.topology.is_boundary_edge, 1, 2)
+    through = sums_by(edge, sign * flux, len(n_sides)) / n_sides
+    return np.asarray(sign * through[edge])
+
+
+def _corner_curvature(mesh: Mesh) -> Floats:
+    """Return each corner's share of the curvature of its vertex, 2 pi less its angles, (n_triangles, 3)."""
+    corner = angles(mesh.corner_edge_lengths)
+    missing = 2 * np.pi - sums_by(mesh.triangles, corner, mesh.n_points)
+    missing[mesh.topology.is_boundary] = 0.0
+    return np.asarray((missing / mesh.topology.n_cells_at)[mesh.triangles])
+
+
+def region_charges(label: Ints, fluxes: Floats) -> Floats:
+    """Return the charge inside each region, (n_regions,); label from 0, one a triangle."""
+    return sums_by(label, fluxes.sum(axis=1), int(label.max()) + 1)
 
 
 def smooth_slope(size: SizeField, reach: float) -> Floats:
@@ -55,8 +83,3 @@ def smooth_slope(size: SizeField, reach: float) -> Floats:
     once = diffuse(mesh, growth, reach * h)
     twice = once + diffuse(mesh, growth - once, reach * h)
     return np.asarray(twice / size.h[:, None])
-
-
-def region_charges(label: Ints, fluxes: Floats) -> Floats:
-    """Return the charge inside each region, (n_regions,); label from 0, one a triangle."""
-    return sums_by(label, fluxes.sum(axis=1), int(label.max()) + 1)

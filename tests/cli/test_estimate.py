@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from pathlib import Path
 
 import meshio
@@ -30,6 +31,7 @@ WRONG = [
     (["--tris-per-block", "20"], "16 and 25"),
     (["--tris-per-block", "0"], "under 1"),
     (["--tris-per-block", "-4"], "under 1"),
+    (["--tris-per-block", "1" + 20 * "0"], "give fewer"),
     (["--tris-per-block", "four"], "'four'"),
     (["--tris-per-block", ""], "''"),
     (["--tris-per-block", "4,17"], "16 and 25"),
@@ -102,6 +104,60 @@ def test_no_plan_for_the_request_is_exit_1(capsys):
     assert (code, out) == (1, "")
     assert "the least is" in err
     assert "forbids fewer" in err
+
+
+def test_two_outputs_of_one_name_are_wrong_usage(capsys, tmp_path):
+    same = str(tmp_path / "plan.vtu")
+    code, _, err = said(capsys, SQUARE, "--vtk", same, "--vtk-patterns", same)
+    assert code == 2
+    assert "two outputs" in err
+
+
+def test_the_mesh_itself_is_never_overwritten(capsys):
+    code, _, err = said(capsys, SQUARE, "--save", SQUARE)
+    assert code == 2
+    assert "the mesh file itself" in err
+
+
+def test_a_pipe_is_not_replaced_by_a_file(capsys, tmp_path):
+    pipe = tmp_path / "pipe.json"
+    os.mkfifo(pipe)
+    code, _, err = said(capsys, SQUARE, "--save", str(pipe))
+    assert code == 3
+    assert "no regular file" in err
+    assert pipe.is_fifo()
+
+
+def test_a_link_is_written_through(capsys, tmp_path):
+    target, link = tmp_path / "target.json", tmp_path / "link.json"
+    target.write_text("old")
+    link.symlink_to(target)
+    assert said(capsys, SQUARE, "--save", str(link))[0] == 0
+    assert link.is_symlink()
+    assert json.loads(target.read_text())["schema"] == "bsgplan.estimate/1"
+
+
+def test_the_boundary_is_named_where_it_forbids_fewer_blocks(capsys):
+    shoreline = str(CASES / "shoreline" / "mesh.msh")
+    _, _, err = said(capsys, shoreline, "--blocks", "30")
+    assert "the boundary" in err
+
+
+def test_one_triangle_is_planned_and_drawn(capsys, tmp_path):
+    path = tmp_path / "one.vtu"
+    meshio.write_points_cells(path, np.array([[0.0, 0], [1, 0], [0, 1]]), [("triangle", [[0, 1, 2]])])
+    document = planned(capsys, str(path), "--figure", str(tmp_path / "one.png"))
+    assert document["totals"]["blocks"] == 1
+
+
+@pytest.mark.parametrize("unit", [1e80, 1e-80])
+def test_units_beyond_reckoning_are_refused(capsys, tmp_path, unit):
+    path = tmp_path / "huge.vtu"
+    points = unit * np.array([[0.0, 0], [1, 0], [0, 1]])
+    meshio.write_points_cells(path, points, [("triangle", [[0, 1, 2]])])
+    code, _, err = said(capsys, str(path))
+    assert code == 3
+    assert "another unit" in err
 
 
 def test_several_block_sizes_are_several_plans(capsys):

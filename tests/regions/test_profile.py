@@ -191,3 +191,13 @@ def test_rectangle_case_has_the_counts_of_the_paper_automatically() -> None:
 def test_square_case_is_one_uniform_zone() -> None:
     regions = find_regions(size_field(read(CASES / "square" / "mesh.msh").mesh))
     assert [r.kind for r in regions] == ["uniform"]
+
+
+def test_the_fronts_of_a_region_sweep_its_area() -> None:
+    """Positions and lengths describe the region's own shape: the integral of L dx is its area."""
+    for name in ("rectangle", "annulus", "islands"):
+        mesh = read(CASES / name / "mesh.msh").mesh
+        for region in find_regions(size_field(mesh)):
+            profile = region.profile
+            swept = (np.diff(profile.positions) * (profile.lengths[1:] + profile.lengths[:-1]) / 2).sum()
+            assert swept == pytest.approx(region.area, rel=0.06)
