@@ -9,6 +9,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from .arrays import Floats
 from .atomic import replacing
 from .io import MeshFile
@@ -87,10 +89,15 @@ def mesh_document(mesh_file: MeshFile) -> dict[str, Any]:
     scale = None if projection is None else projection.scale(mesh.points)
     quad_scale = None if projection is None else projection.scale(mesh_file.quad_points)
     found = mesh_file.description()
+    bounds = mesh.bounds
+    if projection is not None:
+        degrees = projection.to_unbroken_degrees(mesh.points)
+        bounds = tuple(np.column_stack([degrees.min(axis=0), degrees.max(axis=0)]).ravel().tolist())
     return {
         "path": found["path"],
         "format": found["format"],
         **mesh_report.measures(mesh, scale=scale),
+        "bounds": list(bounds),
         "quads": mesh_report.quad_measures(mesh_file.quad_points, mesh_file.quads, scale=quad_scale),
         **found,
     }

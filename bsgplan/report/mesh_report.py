@@ -136,7 +136,7 @@ def rows(mesh: Mapping[str, Any]) -> list[Row]:
             "vertices",
         ),
         ("area", f"{mesh['area']:.4g}", "m^2" if mesh["projection"] else "file unit^2"),
-        ("bounds", _bounds(mesh["bounds"]), unit + (" of the plane" if mesh["projection"] else "")),
+        ("bounds", _bounds(mesh["bounds"]), "degrees" if mesh["projection"] else unit),
     ]
     if mesh["projection"]:
         centre = f"{mesh['projection']['longitude']:.4f} {mesh['projection']['latitude']:.4f}"

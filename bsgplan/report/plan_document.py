@@ -58,6 +58,7 @@ def _region_document(plan: RegionPlan, whole: Plan, triangle_scale: Floats | Non
     areas = whole.regions.size.mesh.areas[region.triangles]
     true_areas = areas if triangle_scale is None else areas / triangle_scale[region.triangles] ** 2
     profile = region.profile
+    unit = 1.0 if triangle_scale is None else float(triangle_scale[region.triangles].mean())
     is_transition = chosen is not None
     return {
         "id": region.id,
@@ -84,7 +85,7 @@ def _region_document(plan: RegionPlan, whole: Plan, triangle_scale: Floats | Non
         "charge": region.charge,
         "limited": plan.limited,
         "largest_tris_per_block": plan.largest_tris_per_block,
-        "candidates": [_candidate_document(c) for c in plan.candidates],
+        "candidates": [_candidate_document(c, unit) for c in plan.candidates],
         "unstructured": {
             "n_triangles": region.n_triangles,
             "q_min": region.q_min,
@@ -93,7 +94,8 @@ def _region_document(plan: RegionPlan, whole: Plan, triangle_scale: Floats | Non
     }
 
 
-def _candidate_document(candidate: Candidate) -> dict[str, Any]:
+def _candidate_document(candidate: Candidate, unit: float) -> dict[str, Any]:
+    """Return a candidate as plain data; unit is the plane's length per true length in its region."""
     pattern, limits = candidate.pattern, candidate.bounds
     return {
         "pattern": list(pattern.counts),
@@ -108,7 +110,7 @@ def _candidate_document(candidate: Candidate) -> dict[str, Any]:
         "q_min": candidate.q_min,
         "misfit": candidate.misfit,
         "count_misfit": candidate.count_misfit,
-        "front_positions": [float(x) for x in candidate.spacing.positions],
+        "front_positions": [float(x / unit) for x in candidate.spacing.positions],
         "rejected": candidate.rejected,
     }
 
