@@ -26,19 +26,18 @@ def hat_gradients(mesh: Mesh) -> Floats:
     return result
 
 
-def gradient(mesh: Mesh, values: Floats, hats: Floats | None = None) -> Floats:
+def gradient(mesh: Mesh, values: Floats) -> Floats:
     """Return the gradient of vertex values in each triangle, (n_triangles, 2 or 3), value/length."""
-    hats = hat_gradients(mesh) if hats is None else hats
-    result: Floats = np.einsum("tci,tc->ti", hats, values[mesh.triangles])
+    result: Floats = np.einsum("tci,tc->ti", hat_gradients(mesh), values[mesh.triangles])
     return result
 
 
-def stiffness(mesh: Mesh, conductivity: Floats | None = None, hats: Floats | None = None) -> csr_array:
+def stiffness(mesh: Mesh, conductivity: Floats | None = None) -> csr_array:
     """Return the stiffness matrix, (n_points, n_points): integral of c grad(phi_i) . grad(phi_j).
 
     conductivity is one value c a triangle (default 1).
     """
-    hats = hat_gradients(mesh) if hats is None else hats
+    hats = hat_gradients(mesh)
     weight = mesh.areas if conductivity is None else mesh.areas * conductivity
     local = np.einsum("tci,tdi,t->tcd", hats, hats, weight)
     rows = np.repeat(mesh.triangles, 3, axis=1).ravel()

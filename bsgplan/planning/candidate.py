@@ -127,21 +127,23 @@ def _objection(pattern: Pattern) -> str | None:
 
 
 def _worth(counts: tuple[int, ...], profile: Profile, side: float, wanted: float) -> float:
-    n_blocks = sum(counts) + sum(counts[1:-1])
-    return misfit(counts, profile, side) + abs(float(np.log(n_blocks / wanted)))
+    return misfit(counts, profile, side) + abs(float(np.log(Pattern(counts).n_blocks / wanted)))
+
+
+def _steepest(counts: tuple[int, ...]) -> float:
+    """Return the largest ratio of the counts of two neighbouring fronts."""
+    return max(max(strip) / min(strip) for strip in Pattern(counts).strips)
 
 
 def _prune(counts: list[tuple[int, ...]]) -> list[tuple[int, ...]]:
     """Return at most MOST_SHOWN sequences: the best fits and the extremes of blocks and irregularity."""
     if len(counts) <= MOST_SHOWN:
         return counts
-    smooth = [
-        c for c in counts if max(max(p) / min(p) for p in zip(c[1:], c[:-1], strict=True)) <= 2
-    ] or counts
+    smooth = [c for c in counts if _steepest(c) <= 2] or counts
     extremes = [
         min(smooth, key=lambda c: Pattern(c).n_blocks),
         min(smooth, key=lambda c: (Pattern(c).irregularity.positive, Pattern(c).n_blocks)),
-        max(counts, key=lambda c: max(max(p) / min(p) for p in zip(c[1:], c[:-1], strict=True))),
+        max(counts, key=_steepest),
     ]
     rest = [c for c in counts if c not in extremes]
     return list(dict.fromkeys(extremes + rest[: MOST_SHOWN - len(set(extremes))]))

@@ -50,19 +50,18 @@ def sequences(profile: Profile, side: float, *, least: int = 1) -> list[tuple[in
     ideal = profile.layers / side
     floor = int(np.floor(ideal))
     n_strips = {max(1, n) for n in (floor - 1, floor, floor + 1)} | ({floor + 2} if ideal < 3 else set())
+    fine, coarse = _ends(profile, side, least)
     found: dict[tuple[int, ...], None] = {}
     for n in sorted(n_strips):
         wanted = block_counts(profile, side, n)
         same_blocks = wanted * np.clip(ideal / n, 0.7, 1.4)
-        fine, coarse = (max(least, round(float(t))) for t in wanted[[0, -1]])
         found[_whole(np.linspace(fine, coarse, n + 1), least)] = None
         found[_whole(np.geomspace(fine, coarse, n + 1), least)] = None
         for target in (wanted, same_blocks, _followable(same_blocks)):
             for price in PRICES:
                 found[_best_sequence(np.maximum(target, least), price, least)] = None
-    direct = _whole(block_counts(profile, side, 1), least)
     if ideal < 4:
-        found[direct] = None
+        found[fine, coarse] = None
     return list(found)
 
 
@@ -73,7 +72,7 @@ def searched(profile: Profile, side: float, *, is_closed: bool) -> dict[tuple[in
     more than EXACT blocks on a front or longer than LONGEST_SEARCHED: the search would take its time there.
     """
     least = 3 if is_closed else 1
-    fine, coarse = (max(least, round(float(t))) for t in block_counts(profile, side, 1))
+    fine, coarse = _ends(profile, side, least)
     length = float(profile.positions[-1] / profile.lengths.mean())
     if max(fine, coarse) > EXACT or length > LONGEST_SEARCHED:
         return {}
@@ -91,7 +90,7 @@ def arithmetic(profile: Profile, side: float, *, least: int = 1) -> list[tuple[i
     So 28 to 4 elements on 9.5 layers at s = 4 give 7:4:1 and 7:5:3:1 ([Zint & Grosso], Fig. 10).
     """
     ideal = profile.layers / side
-    fine, coarse = (max(least, round(t)) for t in block_counts(profile, side, 1).tolist())
+    fine, coarse = _ends(profile, side, least)
     strips = sorted({max(1, int(np.floor(ideal))), max(1, int(np.ceil(ideal)))})
     return [_whole(np.linspace(fine, coarse, n + 1), least) for n in strips]
 
@@ -113,6 +112,12 @@ def misfit(counts: tuple[int, ...], profile: Profile, side: float) -> float:
     along = (np.log(wanted / np.asarray(counts)) ** 2).mean()
     across = np.log(profile.layers / (side * n_strips)) ** 2
     return float(np.sqrt((along + across) / 2))
+
+
+def _ends(profile: Profile, side: float, least: int) -> tuple[int, int]:
+    """Return the whole counts that a profile asks for on its fine and its coarse front."""
+    fine, coarse = block_counts(profile, side, 1).tolist()
+    return max(least, round(fine)), max(least, round(coarse))
 
 
 def _followable(wanted: Floats) -> Floats:

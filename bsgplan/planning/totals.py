@@ -11,10 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import Floats
-from ..mesh.operators import gradient
 from ..regions import Regions
 from ..sizing.limits import capped_triangles, gradient_limited_blocks
-from ..sizing.smoothing import smooth_gradient
 
 GRADIENT_LIMIT = 0.6
 """Default bound on |grad H| of the block size H: across a block its size may change by 60 % of its edge."""
@@ -98,5 +96,4 @@ def drivers(regions: Regions, *, tris_per_block: int = 16, gradient_limit: float
 def _slope_energy(regions: Regions) -> Floats:
     """Return the integral of |grad log h|^2 over each triangle, (n_triangles,)."""
     size, mesh = regions.size, regions.size.mesh
-    slope = smooth_gradient(mesh, gradient(mesh, size.log_h), size.triangle_h)
-    return np.asarray((slope[mesh.triangles].mean(axis=1) ** 2).sum(axis=1) * mesh.areas)
+    return np.asarray((size.slope[mesh.triangles].mean(axis=1) ** 2).sum(axis=1) * mesh.areas)

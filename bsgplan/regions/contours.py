@@ -77,7 +77,7 @@ def vertex_charges(regions: Regions) -> Floats:
 
     What flows out of a triangle is given to its corners by thirds, so the sum is the charge of the regions.
     """
-    outflow = np.where(regions.label >= 0, regions.fluxes.sum(axis=1), 0.0)
+    outflow = np.where(regions.label >= 0, regions.size.fluxes.sum(axis=1), 0.0)
     mesh = regions.size.mesh
     return sums_by(mesh.triangles, np.repeat(outflow / 3, 3), mesh.n_points)
 

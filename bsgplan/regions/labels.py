@@ -52,15 +52,14 @@ def finest_first(label: Ints, log_h: Floats) -> Ints:
     return rank[label]
 
 
-def smooth_borders(mesh: Mesh, label: Ints, *, rounds: int) -> Ints:
-    """Return labels with their borders straightened, (n_triangles,).
+def smooth_borders(mesh: Mesh, label: Ints, average: csr_array, *, rounds: int) -> Ints:
+    """Return labels with their borders straightened, (n_triangles,); average is `ring_average` of the mesh.
 
     Threshold dynamics [Merriman, Bence & Osher]: the indicator of each label is averaged over the
     triangles around the vertices, four times, and each triangle takes the label that is strongest there;
     rounds times. Only triangles near a border are touched; ties go to the smaller label. Last, teeth are
     pulled: a triangle with two neighbours in one other region joins them.
     """
-    average = _ring_average(mesh)
     for _ in range(rounds):
         near = _near_border(mesh, label, 4)
         wide = np.flatnonzero(_near_border(mesh, label, 8))
@@ -154,7 +153,7 @@ def _near_border(mesh: Mesh, label: Ints, rings: int) -> Bools:
     return near
 
 
-def _ring_average(mesh: Mesh) -> csr_array:
+def ring_average(mesh: Mesh) -> csr_array:
     """Return the matrix that averages triangle values around the corners, weighed by their angles.
 
     Weighed by number, a border would creep from the fine side, with its many triangles, into the coarse.

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..arrays import Bools, Floats, Ints, sums_by
 from ..sizing import SizeField
-from ..sizing.charge import edge_fluxes, region_charges
+from ..sizing.charge import region_charges
 from .plateau import PLATEAU
 from .profile import profiles
 from .region import TRANSITION, UNIFORM, Region, Regions, inner_irregularity
@@ -39,12 +39,9 @@ def measure_regions(
     shown = label >= 0
     inside = np.where(shown, label, n)  # the rest gets a label of its own, dropped below
     measured = profiles(size, inside)
-    fluxes = edge_fluxes(size)
-    charges = region_charges(inside, fluxes)
+    charges = region_charges(inside, size.fluxes)
     irregularity = inner_irregularity(size, inside, n)
-    is_closed = (
-        np.sum([_is_ring(size, inside, _level(size, inside, n, share)) for share in PROBES], axis=0) >= 2
-    )
+    is_closed = np.sum([_is_ring(size, inside, level) for level in _levels(size, inside, n)], axis=0) >= 2
     is_monotone = _monotone(size, inside, n, persistence)
     order = np.argsort(inside, kind="stable")
     start = np.searchsorted(inside[order], np.arange(n + 1))
@@ -69,16 +66,16 @@ def measure_regions(
                 irregularity=irregularity[k],
             )
         )
-    return Regions(size, label, tuple(regions), fluxes)
+    return Regions(size, label, tuple(regions))
 
 
-def _level(size: SizeField, label: Ints, n: int, share: float) -> Floats:
-    """Return the log size below which this share of the triangles of each region lies, (n,)."""
+def _levels(size: SizeField, label: Ints, n: int) -> list[Floats]:
+    """Return the log sizes below which each share of `PROBES` of a region's triangles lies, (n,) each."""
     middle = size.log_h[size.mesh.triangles].mean(axis=1)
     order = np.lexsort((middle, label))
     count = np.bincount(label, minlength=n)[:n]
-    result: Floats = middle[order][np.cumsum(count) - count + (share * count).astype(np.int64)]
-    return result
+    first = np.cumsum(count) - count
+    return [middle[order][first + (share * count).astype(np.int64)] for share in PROBES]
 
 
 def _is_ring(size: SizeField, label: Ints, level: Floats) -> Bools:

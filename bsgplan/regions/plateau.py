@@ -10,9 +10,7 @@ import numpy as np
 
 from ..arrays import Bools, Floats, Ints, sums_by
 from ..mesh import Mesh
-from ..mesh.operators import gradient
 from ..sizing import SizeField
-from ..sizing.smoothing import smooth_gradient
 from . import labels
 
 PLATEAU = 0.05
@@ -41,8 +39,7 @@ def plateaus(size: SizeField, *, plateau: float, spread: float, least: float) ->
     piece whose size drifts further is tried again with half and a quarter of the slope.
     """
     mesh, log_h = size.mesh, np.log(size.triangle_h)
-    slope = smooth_gradient(mesh, gradient(mesh, size.log_h), size.triangle_h)
-    steepness = np.linalg.norm(slope, axis=1) * size.h
+    steepness = np.linalg.norm(size.slope, axis=1) * size.h
     beside = _largest_beside(mesh, _largest_beside(mesh, steepness))
     is_zone = np.zeros(mesh.n_triangles, dtype=bool)
     for share in (1.0, 0.5, 0.25):

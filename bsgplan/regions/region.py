@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..arrays import Floats, Ints, frozen_floats, frozen_ints
+from ..arrays import Ints, frozen_ints
 from ..mesh.irregularity import Irregularity, summed
 from ..sizing import SizeField
 from .profile import Profile
@@ -63,12 +63,9 @@ class Regions:
     """Region of each triangle, (n_triangles,); -1 outside where the user drew a region."""
     regions: tuple[Region, ...]
     """The regions, region i has label i."""
-    fluxes: Floats = field(repr=False)
-    """Charge out of each triangle through its edges, (n_triangles, 3), in units of iota."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "label", frozen_ints(self.label))
-        object.__setattr__(self, "fluxes", frozen_floats(self.fluxes))
 
     def __iter__(self) -> Iterator[Region]:
         return iter(self.regions)

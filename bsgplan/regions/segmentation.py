@@ -50,9 +50,10 @@ def segment(
         width = LEAST_WIDTH * side
         return labels.merge_small(mesh, label, log_h, weight, kind=is_uniform, least=least, width=width)
 
+    average = labels.ring_average(mesh)
     for _ in range(3):
-        label = merged(label)
-        label = labels.smooth_borders(mesh, labels.finest_first(label, log_h), rounds=6)
+        label = labels.finest_first(merged(label), log_h)
+        label = labels.smooth_borders(mesh, label, average, rounds=6)
         label = labels.finest_first(labels.connected(mesh, label), log_h)
     label = labels.finest_first(merged(label), log_h)
     return label, _level_share(label, weight, is_zone, log_h, persistence) >= LEVEL_SHARE

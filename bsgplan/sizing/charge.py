@@ -9,14 +9,18 @@ charges of regions add up to that of the domain.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from ..arrays import Floats, Ints, sums_by
 from ..mesh import Mesh
 from ..mesh.operators import gradient, to_vertices
 from ..mesh.quality import angles
-from .field import SizeField
 from .smoothing import diffuse
+
+if TYPE_CHECKING:
+    from .field import SizeField
 
 REACH = 3.0
 """Smoothing length of the gradient in local sizes: the noise of one region is then 0.05 to 0.1 charges."""

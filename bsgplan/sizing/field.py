@@ -14,6 +14,9 @@ import numpy as np
 from ..arrays import Floats, frozen_floats
 from ..errors import InvalidSize
 from ..mesh import Mesh
+from ..mesh.operators import gradient
+from .charge import edge_fluxes
+from .smoothing import smooth_gradient
 
 EQUILATERAL = np.sqrt(3) / 4
 """Area of an equilateral triangle of edge 1."""
@@ -59,6 +62,17 @@ class SizeField:
     def triangle_weights(self) -> Floats:
         """Equilateral triangles of size h that cover each triangle, (n_triangles,): A / (sqrt(3)/4 h^2)."""
         return self.mesh.areas / (EQUILATERAL * self.triangle_h**2)
+
+    @cached_property
+    def slope(self) -> Floats:
+        """grad(log h) at the vertices, averaged over one local size, (n_points, 2 or 3), 1/length."""
+        triangle_slope = gradient(self.mesh, self.log_h)
+        return frozen_floats(smooth_gradient(self.mesh, triangle_slope, self.triangle_h))
+
+    @cached_property
+    def fluxes(self) -> Floats:
+        """Charge out of each triangle through its edges, (n_triangles, 3), in units of iota."""
+        return frozen_floats(edge_fluxes(self))
 
     @property
     def expected_triangles(self) -> float:

@@ -60,13 +60,12 @@ def fit_edges(mesh: Mesh, edge_values: Floats, reach: float) -> Floats:
     i, j = mesh.topology.edges.T
     n = mesh.n_points
     degree = mesh.topology.valence
-    start = (np.bincount(i, edge_values, n) + np.bincount(j, edge_values, n)) / degree
+    total = np.bincount(i, edge_values, n) + np.bincount(j, edge_values, n)
     rows = np.concatenate([i, j, np.arange(n)])
     columns = np.concatenate([j, i, np.arange(n)])
     weights = np.concatenate([np.full(2 * len(i), 0.25), degree / 4])
     normal = csr_array((weights, (rows, columns)), shape=(n, n))
-    right = (np.bincount(i, edge_values, n) + np.bincount(j, edge_values, n)) / 2
-    return level + _regularised(mesh, normal, right, start, reach)
+    return level + _regularised(mesh, normal, total / 2, total / degree, reach)
 
 
 def smooth(mesh: Mesh, values: Floats, reach: float) -> Floats:
