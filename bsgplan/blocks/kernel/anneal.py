@@ -1,0 +1,242 @@
+"""Simulated annealing of the topology: flip, split or collapse somewhere, relax there, accept or undo.
+
+[Kirkpatrick, Gelatt & Vecchi 1983] with the acceptance of Metropolis. Every move is one transaction. Most
+moves begin at an irregular vertex; a split or collapse is followed by flips that mend valences, so that a
+move can glide a pair of irregular vertices or annihilate one.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .chance import below, uniform
+from .collapse import collapse, kept_end
+from .compiled import compiled
+from .energy import is_upright
+from .fan import corner_of, fan_of, side_to
+from .flip import can_flip, flip, flip_gain
+from .journal import begin, commit, rollback
+from .relax import relax_vertex
+from .split import can_split, split
+from .state import (
+    CORNER,
+    DELTA,
+    FAN,
+    GOAL,
+    KIND,
+    N_TRIANGLES,
+    N_VERTICES,
+    OVERFLOW,
+    STAMP,
+    TEMPERATURE,
+    TRIANGLE,
+    VALENCE,
+    State,
+)
+
+AT_IRREGULAR = 0.6
+"""Share of the moves that begin in the star of an irregular vertex."""
+
+BESIDE = 0.3
+"""Share of those that begin one triangle further."""
+
+FLIPS = 0.6
+"""Share of the moves that are flips; the others are splits and collapses, half each."""
+
+FOLLOW_UP = 0.3
+"""Share of the flips with a second flip beside: the glide of a dislocation."""
+
+MOST_MENDS = 4
+"""A split or collapse is followed by 0 .. MOST_MENDS - 1 flips."""
+
+NOISE = 0.9
+"""Noise on the gain by which those flips are chosen."""
+
+MARGIN = 1.0
+"""A move so much over the acceptance after the first relaxation is given up."""
+
+DRAWS = 60
+"""Vertices drawn in search of an irregular one."""
+
+TOUCHED, RING = 0, 1
+"""Rows of state.fan that hold the vertices touched and those round them."""
+
+
+@compiled
+def anneal(state: State, n_moves: int) -> int:
+    """Make n_moves moves at the state's temperature; return how many were accepted."""
+    n_accepted = 0
+    for _ in range(n_moves):
+        n_accepted += _move(state)
+    return n_accepted
+
+
+@compiled
+def is_irregular(state: State, v: int) -> bool:
+    """Return True where the valence of a vertex is off its goal, at a corner by more than half an edge."""
+    off = abs(state.vertex[v, VALENCE] - state.value[v, GOAL])
+    return off > (0.51 if state.vertex[v, KIND] >= CORNER else 0.0)
+
+
+@compiled
+def _move(state: State) -> int:
+    t = _somewhere(state)
+    if t < 0:
+        return 0
+    side = below(state, 3)
+    begin(state)
+    n = _change(state, t, side)
+    if n == 0 or state.counter[OVERFLOW] != 0:
+        rollback(state)
+        return 0
+    bound = -state.scalar[TEMPERATURE] * np.log(1.0 - uniform(state))
+    for i in range(n):
+        relax_vertex(state, state.fan[TOUCHED, i])
+    if state.scalar[DELTA] > bound + MARGIN or state.counter[OVERFLOW] != 0:
+        rollback(state)
+        return 0
+    m = _ring(state, n)
+    for i in range(m):
+        relax_vertex(state, state.fan[RING, i])
+    if state.scalar[DELTA] > bound or state.counter[OVERFLOW] != 0 or not _are_upright(state, n):
+        rollback(state)
+        return 0
+    commit(state)
+    return 1
+
+
+@compiled
+def _somewhere(state: State) -> int:
+    """Return a triangle to begin at, -1 if none was met."""
+    if uniform(state) < AT_IRREGULAR:
+        for _ in range(DRAWS):
+            v = below(state, state.counter[N_VERTICES])
+            if state.vertex[v, TRIANGLE] >= 0 and is_irregular(state, v):
+                n, _ = fan_of(state, v, 10)
+                if n == 0:
+                    return -1
+                t = state.fan[10, below(state, n)]
+                if uniform(state) < BESIDE:
+                    beside = state.triangle[t, 3 + below(state, 3)]
+                    t = beside if beside >= 0 else t
+                return t
+    for _ in range(DRAWS):
+        t = below(state, state.counter[N_TRIANGLES])
+        if state.triangle[t, 0] >= 0:
+            return t
+    return -1
+
+
+@compiled
+def _change(state: State, t: int, side: int) -> int:
+    """Change the topology at an edge; return the number of vertices touched, 0 where it may not be."""
+    state.counter[STAMP] += 1
+    if uniform(state) < FLIPS:
+        if not can_flip(state, t, side):
+            return 0
+        other = flip(state, t, side)
+        n = _touch_pair(state, 0, t, other)
+        n_mends = 1 if uniform(state) < FOLLOW_UP else 0
+        return _mend(state, n, n_mends, state.triangle[t, 0], state.triangle[t, 2])
+    if uniform(state) < 0.5:
+        if not can_split(state, t, side):
+            return 0
+        b, c, a = (
+            state.triangle[t, (side + 1) % 3],
+            state.triangle[t, (side + 2) % 3],
+            state.triangle[t, side],
+        )
+        m = split(state, t, side)
+        if m < 0:
+            return 0
+        n = _touch(state, 0, m)
+        n = _touch(state, n, a)
+        n = _touch(state, n, b)
+        n = _touch(state, n, c)
+        return _mend(state, n, below(state, MOST_MENDS), -1, -1)
+    keep = kept_end(state, t, side)
+    if keep < 0:
+        return 0
+    a, other = state.triangle[t, side], state.triangle[t, 3 + side]
+    d = -1 if other < 0 else state.triangle[other, side_to(state, other, t)]
+    if not collapse(state, t, side, keep):
+        return 0
+    n = _touch(state, 0, keep)
+    n = _touch(state, n, a)
+    if d >= 0:
+        n = _touch(state, n, d)
+    return _mend(state, n, below(state, MOST_MENDS), -1, -1)
+
+
+@compiled
+def _touch(state: State, n: int, v: int) -> int:
+    """Add a vertex to those touched unless it is there; return their number."""
+    if state.mark[v] != state.counter[STAMP] and n < FAN:
+        state.mark[v] = state.counter[STAMP]
+        state.fan[TOUCHED, n] = v
+        return n + 1
+    return n
+
+
+@compiled
+def _touch_pair(state: State, n: int, t: int, other: int) -> int:
+    for i in range(3):
+        n = _touch(state, n, state.triangle[t, i])
+        n = _touch(state, n, state.triangle[other, i])
+    return n
+
+
+@compiled
+def _mend(state: State, n: int, n_flips: int, last_a: int, last_b: int) -> int:
+    """Flip the edges round the touched vertices that mend valences most, never the last one back."""
+    for _ in range(n_flips):
+        best, best_t, best_side = 0.0, -1, -1
+        for i in range(n):
+            v = state.fan[TOUCHED, i]
+            m, _ = fan_of(state, v, 10)
+            for j in range(m):
+                t = state.fan[10, j]
+                k = corner_of(state, t, v)
+                for side in (k, (k + 2) % 3):  # the edge opposite v and the one that leaves it
+                    if state.triangle[t, 3 + side] < 0 or state.triangle[t, 6 + side] >= 0:
+                        continue
+                    p, q = state.triangle[t, (side + 1) % 3], state.triangle[t, (side + 2) % 3]
+                    if (p == last_a and q == last_b) or (p == last_b and q == last_a):
+                        continue
+                    score = flip_gain(state, t, side) + NOISE * uniform(state)
+                    if score > best and can_flip(state, t, side):
+                        best, best_t, best_side = score, t, side
+        if best_t < 0:
+            break
+        other = flip(state, best_t, best_side)
+        last_a, last_b = state.triangle[best_t, 0], state.triangle[best_t, 2]
+        n = _touch_pair(state, n, best_t, other)
+    return n
+
+
+@compiled
+def _ring(state: State, n: int) -> int:
+    """Gather the vertices joined to those touched into row RING; return how many."""
+    m = 0
+    for i in range(n):
+        v = state.fan[TOUCHED, i]
+        k, _ = fan_of(state, v, 10)
+        for j in range(k):
+            t = state.fan[10, j]
+            for corner in range(3):
+                w = state.triangle[t, corner]
+                if state.mark[w] != state.counter[STAMP] and m < FAN:
+                    state.mark[w] = state.counter[STAMP]
+                    state.fan[RING, m] = w
+                    m += 1
+    return m
+
+
+@compiled
+def _are_upright(state: State, n: int) -> bool:
+    for i in range(n):
+        k, _ = fan_of(state, state.fan[TOUCHED, i], 10)
+        for j in range(k):
+            if not is_upright(state, state.fan[10, j]):
+                return False
+    return True

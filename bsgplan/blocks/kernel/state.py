@@ -1,0 +1,128 @@
+"""The state that every kernel works on: a triangle mesh on a domain, energies, journal and random numbers.
+
+One NamedTuple of arrays, so that every kernel takes one argument. Invariants between transactions: corners
+run counter-clockwise, side i of a triangle lies opposite its corner i, neighbours are mutual, valences and
+energies are those of the mesh, the journal is empty.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple, TypeVar
+
+import numpy as np
+
+from ...arrays import Floats, Ints
+from ..domain import Domain
+
+INTERIOR, SLIDING, CORNER, JUNCTION = 0, 1, 2, 3
+"""Kinds of vertices: free; on a curve; fixed, on one curve or none; fixed where curves meet or end."""
+
+TRIANGLE, VALENCE, KIND, CURVE, HINT = range(5)
+"""Columns of `vertex`: a triangle at it, number of edges, kind, curve (or -1), domain triangle near it."""
+
+U, W, ARC, GOAL, ENERGY = range(5)
+"""Columns of `value`: log of the wanted edge length, exp(-2 u), place on its curve, goal valence, energy."""
+
+DELTA, N_INVERTED, TEMPERATURE, OFFSET, POWER, QUALITY, SIZE, VALENCES, BEND = range(9)
+"""Entries of `scalar`: energy change of the transaction, spare, temperature, added to u, and weights."""
+
+N_VERTICES, N_TRIANGLES, N_FREE_VERTICES, N_FREE_TRIANGLES, N_LOG, N_TAKEN, N_FREED, OVERFLOW, STAMP = range(
+    9
+)
+"""Entries of `counter`: rows in use (with holes), free rows, journal, rows taken and freed by the move."""
+
+LOG_ROWS = 6000
+"""Rows of the journal: a move touches at most a few hundred; one that needs more is rejected."""
+
+FAN = 64
+"""The most triangles at one vertex that kernels gather."""
+
+
+Numbers = TypeVar("Numbers", bound=np.ndarray[Any, Any])
+
+
+class State(NamedTuple):
+    """A mesh under change, with room for more rows than are in use."""
+
+    point: Floats
+    """Coordinates, (room, 2)."""
+    value: Floats
+    """Further numbers of a vertex, (room, 5): columns U .. ENERGY."""
+    vertex: Ints
+    """Whole numbers of a vertex, (room, 5): columns TRIANGLE .. HINT; TRIANGLE is -1 in a free row."""
+    triangle: Ints
+    """(room, 9): three corners, three neighbours (-1 none), three curve codes; first corner -1 in a free row.
+
+    A code is 2 c on a side that runs along curve c, 2 c + 1 against it, -1 on a side of no curve.
+    """
+    energy: Floats
+    """Energy of each triangle, (room,)."""
+    free_vertex: Ints
+    free_triangle: Ints
+    counter: Ints
+    scalar: Floats
+    log_int: Ints
+    """Journal, (LOG_ROWS, 11): what (0 vertex, 1 triangle), row, the old whole numbers."""
+    log_float: Floats
+    """Journal, (LOG_ROWS, 7): the old coordinates and numbers."""
+    taken: Ints
+    """Rows taken in this transaction, (LOG_ROWS, 2): what, row."""
+    freed: Ints
+    """Rows freed in this transaction, (LOG_ROWS, 2): what, row."""
+    fan: Ints
+    """Scratch for fans of triangles, (16, FAN)."""
+    mark: Ints
+    """Stamp of the last list that each vertex was put on, (room,)."""
+    seed: np.ndarray[tuple[int], np.dtype[np.uint64]]
+    """State of the random numbers, (1,)."""
+    map_point: Floats
+    """Points of the domain's triangulation, (n, 2)."""
+    map_triangle: Ints
+    """Its corners and neighbours, (m, 6)."""
+    map_u: Floats
+    """Log of the wanted edge length at its points, (n,)."""
+    curve_point: Floats
+    """Polylines of all curves, (k, 4): x, y, arc length, log of the wanted edge length."""
+    curve_triangle: Ints
+    """A triangle of the domain at each polyline point, (k,)."""
+    curve: Ints
+    """(n_curves, 4): first and one past the last polyline point, 1 if closed, 1 if inside the domain."""
+
+
+def new_state(domain: Domain, log_size: Floats, points: Floats, rows: Ints, vertices: Ints, arcs: Floats,
+              goals: Floats, *, room: float, seed: int) -> State:  # fmt: skip
+    """Return the state of a mesh: points (n, 2), rows of `triangle` (m, 9), rows of `vertex` (n, 5)."""
+    n_vertices, n_triangles = len(points), len(rows)
+    most_vertices, most_triangles = int(n_vertices * room) + 100, int(n_triangles * room) + 200
+    state = State(
+        point=_padded(points, most_vertices),
+        value=np.zeros((most_vertices, 5)),
+        vertex=_padded(vertices, most_vertices),
+        triangle=_padded(rows, most_triangles),
+        energy=np.zeros(most_triangles),
+        free_vertex=np.empty(most_vertices, dtype=np.int64),
+        free_triangle=np.empty(most_triangles, dtype=np.int64),
+        counter=np.zeros(9, dtype=np.int64),
+        scalar=np.zeros(9),
+        log_int=np.empty((LOG_ROWS, 11), dtype=np.int64),
+        log_float=np.empty((LOG_ROWS, 7)),
+        taken=np.empty((LOG_ROWS, 2), dtype=np.int64),
+        freed=np.empty((LOG_ROWS, 2), dtype=np.int64),
+        fan=np.empty((16, FAN), dtype=np.int64),
+        mark=np.zeros(most_vertices, dtype=np.int64),
+        seed=np.array([seed], dtype=np.uint64),
+        map_point=np.ascontiguousarray(domain.points),
+        map_triangle=np.ascontiguousarray(domain.triangles),
+        map_u=np.ascontiguousarray(log_size),
+        curve_point=np.column_stack([domain.curve_points, log_size[domain.curve_nodes]]),
+        curve_triangle=np.ascontiguousarray(domain.curve_triangles),
+        curve=np.ascontiguousarray(domain.curves),
+    )
+    state.value[:n_vertices, ARC], state.value[:n_vertices, GOAL] = arcs, goals
+    state.counter[N_VERTICES], state.counter[N_TRIANGLES] = n_vertices, n_triangles
+    return state
+
+
+def _padded(array: Numbers, n_rows: int) -> Numbers:
+    rest = np.full((n_rows - len(array), *array.shape[1:]), -1, dtype=array.dtype)
+    return np.concatenate([array, rest])  # type: ignore[return-value]

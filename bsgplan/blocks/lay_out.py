@@ -1,0 +1,58 @@
+"""The verb: from a mesh and its size field to a verified grid of blocks."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import isqrt
+
+import numpy as np
+
+from ..arrays import Bools, Ints
+from ..errors import InvalidOption
+from ..sizing import SizeField
+from .anneal import annealed
+from .domain import domain_of
+from .layout import BlockGrid, BlockLayout
+from .placed import place
+from .smooth import smooth
+from .subdivide import subdivide
+from .target import target_of
+
+EFFORT = 100
+"""Default sweeps of the annealing."""
+
+SIZE_TOLERANCE = 1.2
+"""Default tolerance: rms of log(size / wanted) at most ln 1.2 asked for."""
+
+
+def lay_out(
+    size: SizeField,
+    *,
+    tris_per_block: int = 16,
+    effort: int = EFFORT,
+    size_tolerance: float = SIZE_TOLERANCE,
+    gradient_limit: float | None = None,
+    seed: int = 7,
+    interfaces: Bools | None = None,
+    kept: Ints | None = None,
+    is_straight: bool = False,
+    progress: Callable[[str, float], None] = lambda _, __: None,
+) -> BlockGrid:
+    """Return the block-structured grid of a size field's mesh, its blocks tris_per_block triangles each.
+
+    interfaces marks edges of the mesh that no block may cross, kept lists points that must be corners of
+    blocks. gradient_limit bounds the gradient of the block size; None chooses by the raggedness of the
+    boundary. Raises InvalidMesh for a surface in space, LayoutRefused where no valid layout was found.
+    """
+    side = isqrt(tris_per_block)
+    if side * side != tris_per_block:
+        raise InvalidOption(f"{tris_per_block} triangles per block is no square; give for example 16")
+    domain = domain_of(size.mesh, interfaces=interfaces, kept=kept)
+    target = target_of(domain, size, side, gradient_limit=gradient_limit)
+    log_size = np.log(target.length / domain.scale)
+    start = place(domain, target.is_corner, target.turning)
+    blocks = annealed(domain, start, log_size, effort=effort, seed=seed, progress=progress)
+    layout = BlockLayout(size, domain, target, blocks)
+    cut = subdivide(domain, blocks, side, log_size, snap=not is_straight)
+    fine = cut.mesh if is_straight else smooth(domain, cut.mesh, log_size - np.log(side))
+    return BlockGrid(layout, fine, cut.block, cut.i, cut.j, is_straight)
