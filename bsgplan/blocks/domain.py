@@ -47,6 +47,11 @@ class Domain:
         return len(self.points)
 
     @cached_property
+    def mesh(self) -> Mesh:
+        """The triangulation as a mesh, in the domain's own coordinates."""
+        return Mesh(self.points, self.triangles[:, :3])
+
+    @cached_property
     def areas(self) -> Floats:
         """Area of each triangle, (n_triangles,), in the domain's own unit squared."""
         a, b, c = self.points[self.triangles[:, :3]].swapaxes(0, 1)

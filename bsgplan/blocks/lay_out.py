@@ -51,7 +51,15 @@ def lay_out(
     target = target_of(domain, size, side, gradient_limit=gradient_limit)
     log_size = np.log(target.length / domain.scale)
     start = place(domain, target.is_corner, target.turning)
-    blocks = annealed(domain, start, log_size, effort=effort, seed=seed, progress=progress)
+    blocks = annealed(
+        domain,
+        start,
+        log_size,
+        effort=effort,
+        size_tolerance=size_tolerance,
+        seed=seed,
+        progress=progress,
+    )
     layout = BlockLayout(size, domain, target, blocks)
     cut = subdivide(domain, blocks, side, log_size, snap=not is_straight)
     fine = cut.mesh if is_straight else smooth(domain, cut.mesh, log_size - np.log(side))

@@ -9,8 +9,22 @@ import numpy as np
 from ..arrays import Bools, Floats, frozen_floats
 from ..sizing import SizeField
 from ..sizing.field import EQUILATERAL
+from ..sizing.limits import limit_gradient
 from .corners import find_corners
 from .domain import Domain
+from .limits import boundary_limit
+
+SMOOTH, RAGGED = 0.6, 1.0
+"""Bounds on the gradient of the block edge, on smooth domains and on ragged coasts."""
+
+RAGGEDNESS = 0.04
+"""A domain is ragged where more than this share of its boundary cannot carry RAGGED_EDGE of s h."""
+
+RAGGED_EDGE = 0.7
+"""Share of the wanted edge under which a boundary point counts as ragged."""
+
+PASSES = 2
+"""Corners and limits are found so many times, each with the windows of the edges found before."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,21 +41,51 @@ class Target:
     """How much the curve turns left at each point, over the window, (n_points,), radians."""
     gradient_limit: float
     """The bound on |grad length| that was applied."""
+    raggedness: float
+    """Share of the boundary's length that cannot carry RAGGED_EDGE of s h."""
     blocks: dict[str, float]
-    """Blocks wanted by s h alone ("resolution"), and after each limit in turn: "gradient", "boundary"."""
+    """Blocks wanted by s h alone ("resolution"), with its gradient limited ("gradient"), and with what
+    the boundary carries as well ("boundary")."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "length", frozen_floats(self.length))
 
 
 def target_of(domain: Domain, size: SizeField, side: int, *, gradient_limit: float | None = None) -> Target:
-    """Return the wanted block edges: side times the size field."""
-    length = side * size.h[domain.source]
-    is_corner, turning = find_corners(domain, length / domain.scale)
-    return Target(side, length, is_corner, turning, np.inf, {"resolution": n_blocks(domain, length)})
+    """Return the wanted block edges: side times the size field, limited in gradient and at the boundary.
+
+    gradient_limit None takes SMOOTH or RAGGED by the domain's raggedness.
+    """
+    h = size.h[domain.source] / domain.scale
+    wanted = side * h
+    length = wanted
+    for _ in range(PASSES):
+        is_corner, turning = find_corners(domain, length)
+        limit = boundary_limit(domain, wanted, h, is_corner)
+        if side == 1:
+            limit[:] = np.inf
+        rough = _raggedness(domain, limit / wanted)
+        slope = gradient_limit or (RAGGED if rough > RAGGEDNESS else SMOOTH)
+        length = limit_gradient(domain.mesh, np.minimum(wanted, limit), slope)
+    is_corner, turning = find_corners(domain, length)
+    blocks = {
+        "resolution": n_blocks(domain, wanted),
+        "gradient": n_blocks(domain, limit_gradient(domain.mesh, wanted, slope)),
+        "boundary": n_blocks(domain, length),
+    }
+    return Target(side, length * domain.scale, is_corner, turning, slope, rough, blocks)
 
 
 def n_blocks(domain: Domain, length: Floats) -> float:
-    """Return the number of equilateral blocks of that edge length that cover the domain."""
-    mean = np.exp(np.log(length / domain.scale)[domain.triangles[:, :3]].mean(axis=1))
+    """Return the number of equilateral blocks of that edge length, in the domain's unit, that cover it."""
+    mean = np.exp(np.log(length)[domain.triangles[:, :3]].mean(axis=1))
     return float((domain.areas / (EQUILATERAL * mean**2)).sum())
+
+
+def _raggedness(domain: Domain, share: Floats) -> float:
+    """Return the share of the boundary's length whose ends carry less than RAGGED_EDGE of the wanted edge."""
+    triangle, side = np.nonzero(domain.triangles[:, 3:] < 0)
+    a, b = (domain.triangles[triangle, (side + step) % 3] for step in (1, 2))
+    steps = np.linalg.norm(domain.points[b] - domain.points[a], axis=1)
+    is_ragged = np.minimum(share[a], share[b]) < RAGGED_EDGE
+    return float(steps[is_ragged].sum() / steps.sum())

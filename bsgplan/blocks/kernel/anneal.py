@@ -21,6 +21,7 @@ from .split import can_split, split
 from .state import (
     CORNER,
     DELTA,
+    DELTA_VALENCES,
     FAN,
     GOAL,
     KIND,
@@ -54,6 +55,9 @@ NOISE = 0.9
 
 MARGIN = 1.0
 """A move so much over the acceptance after the first relaxation is given up."""
+
+HOPELESS = 1.5
+"""A move whose valences alone cost so much over the acceptance is given up before any relaxation."""
 
 DRAWS = 60
 """Vertices drawn in search of an irregular one."""
@@ -90,6 +94,9 @@ def _move(state: State) -> int:
         rollback(state)
         return 0
     bound = -state.scalar[TEMPERATURE] * np.log(1.0 - uniform(state))
+    if state.scalar[DELTA_VALENCES] > bound + HOPELESS:
+        rollback(state)
+        return 0
     for i in range(n):
         relax_vertex(state, state.fan[TOUCHED, i])
     if state.scalar[DELTA] > bound + MARGIN or state.counter[OVERFLOW] != 0:

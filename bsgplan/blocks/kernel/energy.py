@@ -18,6 +18,7 @@ from .state import (
     BEND,
     CORNER,
     DELTA,
+    DELTA_VALENCES,
     ENERGY,
     GOAL,
     KIND,
@@ -100,6 +101,7 @@ def set_valence(state: State, v: int, valence: int) -> None:
     state.vertex[v, VALENCE] = valence
     energy = valence_energy(state, v)
     state.scalar[DELTA] += energy - state.value[v, ENERGY]
+    state.scalar[DELTA_VALENCES] += energy - state.value[v, ENERGY]
     state.value[v, ENERGY] = energy
 
 

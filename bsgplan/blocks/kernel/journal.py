@@ -9,6 +9,7 @@ from __future__ import annotations
 from .compiled import compiled
 from .state import (
     DELTA,
+    DELTA_VALENCES,
     LOG_ROWS,
     N_FREE_TRIANGLES,
     N_FREE_VERTICES,
@@ -31,6 +32,7 @@ def begin(state: State) -> None:
     state.counter[N_FREED] = 0
     state.counter[OVERFLOW] = 0
     state.scalar[DELTA] = 0.0
+    state.scalar[DELTA_VALENCES] = 0.0
 
 
 @compiled

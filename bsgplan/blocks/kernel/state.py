@@ -23,8 +23,8 @@ TRIANGLE, VALENCE, KIND, CURVE, HINT = range(5)
 U, W, ARC, GOAL, ENERGY = range(5)
 """Columns of `value`: log of the wanted edge length, exp(-2 u), place on its curve, goal valence, energy."""
 
-DELTA, N_INVERTED, TEMPERATURE, OFFSET, POWER, QUALITY, SIZE, VALENCES, BEND = range(9)
-"""Entries of `scalar`: energy change of the transaction, spare, temperature, added to u, and weights."""
+DELTA, DELTA_VALENCES, TEMPERATURE, OFFSET, POWER, QUALITY, SIZE, VALENCES, BEND = range(9)
+"""Entries of `scalar`: energy change of the move, of its valences alone, temperature, added to u, weights."""
 
 N_VERTICES, N_TRIANGLES, N_FREE_VERTICES, N_FREE_TRIANGLES, N_LOG, N_TAKEN, N_FREED, OVERFLOW, STAMP = range(
     9
