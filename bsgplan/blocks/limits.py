@@ -28,10 +28,6 @@ CHANNEL = 1.15
 WINDING = 3.0
 """Two places of one loop face each other across a channel where the way along the loop is this many widths."""
 
-FLOOR = 0.25
-"""No limit goes below this share of the wanted edge: what is narrower still is followed by the fine grid."""
-
-
 def boundary_limit(domain: Domain, length: Floats, h: Floats, is_corner: Bools) -> Floats:
     """Return the longest block edge that the boundary carries at each point, (n_points,); inf inside.
 
@@ -47,7 +43,7 @@ def boundary_limit(domain: Domain, length: Floats, h: Floats, is_corner: Bools) 
             own = np.minimum(own, domain.curve_lengths[c] / LOOP_EDGES)
         np.minimum.at(limit, nodes, own)
     np.minimum(limit, _channels(domain, length), out=limit)
-    return np.maximum(limit, FLOOR * length)
+    return limit
 
 
 def _along_curve(rows: Floats, is_closed: bool, length: Floats, h: Floats, stop: Bools) -> Floats:

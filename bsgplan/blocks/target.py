@@ -14,14 +14,23 @@ from .corners import find_corners
 from .domain import Domain
 from .limits import boundary_limit
 
-SMOOTH, RAGGED = 0.6, 1.0
-"""Bounds on the gradient of the block edge, on smooth domains and on ragged coasts."""
+SLOPES = (0.6, 0.7, 0.8, 0.9, 1.0)
+"""Bounds on the gradient of the block edge: the first on smooth domains, the last on ragged coasts."""
+
+COST = 1.15
+"""On smooth domains the bound is loosened until it costs at most this factor in blocks."""
 
 RAGGEDNESS = 0.04
 """A domain is ragged where more than this share of its boundary cannot carry RAGGED_EDGE of s h."""
 
 RAGGED_EDGE = 0.7
 """Share of the wanted edge under which a boundary point counts as ragged."""
+
+FLOORS = (0.25, 0.35, 0.5)
+"""Shares of the wanted edge under which no limit goes: the first whose cost is borne, else the last."""
+
+BOUNDARY_COST = 1.5
+"""The floor rises until the boundary costs at most this factor in blocks."""
 
 PASSES = 2
 """Corners and limits are found so many times, each with the windows of the edges found before."""
@@ -54,32 +63,54 @@ class Target:
 def target_of(domain: Domain, size: SizeField, side: int, *, gradient_limit: float | None = None) -> Target:
     """Return the wanted block edges: side times the size field, limited in gradient and at the boundary.
 
-    gradient_limit None takes SMOOTH or RAGGED by the domain's raggedness.
+    gradient_limit None takes the loosest of SLOPES where the domain is ragged, else the tightest that costs
+    at most COST in blocks.
     """
     h = size.h[domain.source] / domain.scale
     wanted = side * h
     length = wanted
-    for _ in range(PASSES):
-        is_corner, turning = find_corners(domain, length)
-        limit = boundary_limit(domain, wanted, h, is_corner)
-        if side == 1:
-            limit[:] = np.inf
-        rough = _raggedness(domain, limit / wanted)
-        slope = gradient_limit or (RAGGED if rough > RAGGEDNESS else SMOOTH)
-        length = limit_gradient(domain.mesh, np.minimum(wanted, limit), slope)
+    plain = n_blocks(domain, wanted)
+    for floor in FLOORS:
+        least = max(floor, 1 / side)  # no block edge shorter than the input's own
+        length, slope, rough = _limited(domain, wanted, h, least, gradient_limit)
+        if n_blocks(domain, length) <= BOUNDARY_COST * plain:
+            break
     is_corner, turning = find_corners(domain, length)
     blocks = {
-        "resolution": n_blocks(domain, wanted),
+        "resolution": plain,
         "gradient": n_blocks(domain, limit_gradient(domain.mesh, wanted, slope)),
         "boundary": n_blocks(domain, length),
     }
     return Target(side, length * domain.scale, is_corner, turning, slope, rough, blocks)
 
 
+def _limited(
+    domain: Domain, wanted: Floats, h: Floats, least: float, gradient_limit: float | None
+) -> tuple[Floats, float, float]:
+    """Return the limited block edge, the bound on its gradient, and the raggedness."""
+    length = wanted
+    for _ in range(PASSES):
+        is_corner, _turning = find_corners(domain, length)
+        share = boundary_limit(domain, wanted, h, is_corner) / wanted
+        rough = _raggedness(domain, np.maximum(share, least))
+        slope = gradient_limit or (SLOPES[-1] if rough > RAGGEDNESS else _slope(domain, wanted))
+        length = limit_gradient(domain.mesh, wanted * np.clip(share, least, 1.0), slope)
+    return length, slope, rough
+
+
 def n_blocks(domain: Domain, length: Floats) -> float:
     """Return the number of equilateral blocks of that edge length, in the domain's unit, that cover it."""
     mean = np.exp(np.log(length)[domain.triangles[:, :3]].mean(axis=1))
     return float((domain.areas / (EQUILATERAL * mean**2)).sum())
+
+
+def _slope(domain: Domain, wanted: Floats) -> float:
+    """Return the first of SLOPES that costs at most COST in blocks, the last if none does."""
+    plain = n_blocks(domain, wanted)
+    for slope in SLOPES[:-1]:
+        if n_blocks(domain, limit_gradient(domain.mesh, wanted, slope)) <= COST * plain:
+            return slope
+    return SLOPES[-1]
 
 
 def _raggedness(domain: Domain, share: Floats) -> float:
