@@ -27,5 +27,9 @@ class NoPatternFits(BsgplanError, ValueError):  # noqa: N818
     """The input is valid, but no plan meets the request."""
 
 
+class LayoutRefused(BsgplanError, ValueError):  # noqa: N818
+    """A layout or its grid does not verify, also after repair; nothing is written."""
+
+
 class OutputError(BsgplanError, OSError):
     """An output cannot be written."""

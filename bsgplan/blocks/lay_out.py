@@ -12,11 +12,12 @@ from ..errors import InvalidOption
 from ..sizing import SizeField
 from .anneal import annealed
 from .domain import domain_of
+from .gridded import gridded
 from .layout import BlockGrid, BlockLayout
 from .placed import place
-from .smooth import smooth
-from .subdivide import subdivide
+from .repair import repaired
 from .target import target_of
+from .verify import verified
 
 EFFORT = 100
 """Default sweeps of the annealing."""
@@ -61,6 +62,4 @@ def lay_out(
         progress=progress,
     )
     layout = BlockLayout(size, domain, target, blocks)
-    cut = subdivide(domain, blocks, side, log_size, snap=not is_straight)
-    fine = cut.mesh if is_straight else smooth(domain, cut.mesh, log_size - np.log(side))
-    return BlockGrid(layout, fine, cut.block, cut.i, cut.j, is_straight)
+    return verified(repaired(gridded(layout, is_straight=is_straight), seed=seed))

@@ -1,0 +1,116 @@
+"""Repair: where a grid has poor triangles its blocks are wanted smaller, and the layout settles once more.
+
+A block is poor mostly because its side is a chord across a bay. There the wanted size is lowered, the
+blocks are split, and the topology quenched at low temperature; all else stays as it is.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from ..arrays import Floats, Ints
+from ..mesh import Mesh
+from ..sizing.limits import limit_gradient
+from .domain import Domain
+from .gridded import gridded
+from .layout import BlockGrid, BlockLayout
+from .placed import PlacedMesh
+from .smooth import POOR, qualities
+
+ROUNDS = 3
+"""Repairs one after the other; each begins with what the one before left."""
+
+SHRINK = 0.6
+"""The wanted block edge at a poor block is lowered by this factor, ..."""
+
+LEAST = 0.2
+"""... but to no less than this share of s h."""
+
+REACH = 0.75
+"""It is lowered within this multiple of the block's longest edge from its middle."""
+
+STEEPEST = 1.0
+"""The gradient of the lowered size, unless the target has a stricter limit."""
+
+SWEEPS, COLD = 8, 0.03
+"""Sweeps of the quench and their temperature."""
+
+POWERS, POLISH = (1.0, 2.0, 4.0, 8.0), 10
+"""Exponents of 1/q and sweeps at each afterwards."""
+
+GAIN = 0.01
+"""A repair has to raise the least quality by more than this."""
+
+
+def repaired(grid: BlockGrid, *, seed: int) -> BlockGrid:
+    """Return the grid, or a better one if some of its triangles are poor."""
+    best, current = grid, grid
+    for turn in range(ROUNDS):
+        poor = poor_blocks(current)
+        if not len(poor):
+            break
+        layout = _lowered(current.layout, poor)
+        log_size = np.log(layout.target.length / layout.domain.scale)
+        blocks = _quenched(layout.domain, layout.placed, log_size, seed + turn)
+        current = gridded(replace(layout, placed=blocks), is_straight=grid.is_straight)
+        if _merit(current) > (_merit(best)[0], _merit(best)[1] + GAIN):
+            best = current
+    return best
+
+
+def poor_blocks(grid: BlockGrid) -> Ints:
+    """Return the blocks that are inverted or have a triangle under POOR."""
+    is_poor = qualities(grid.layout.placed) <= 0
+    is_poor[grid.block[qualities(grid.placed) < POOR]] = True
+    return np.flatnonzero(is_poor)
+
+
+def _merit(grid: BlockGrid) -> tuple[int, float]:
+    """Return what a better grid has more of: first minus the inverted triangles, then the least quality."""
+    block, fine = qualities(grid.layout.placed), qualities(grid.placed)
+    return -int(np.count_nonzero(block <= 0) + np.count_nonzero(fine <= 0)), float(fine.min())
+
+
+def _lowered(layout: BlockLayout, poor: Ints) -> BlockLayout:
+    """Return the layout with blocks wanted smaller round the poor ones."""
+    domain, blocks, target = layout.domain, layout.placed, layout.target
+    middles = blocks.points[blocks.triangles].mean(axis=1)[poor]
+    log_factor = np.zeros(domain.n_points)
+    reach = REACH * _longest(blocks)[poor]
+    for at, near in enumerate(cKDTree(domain.points).query_ball_point(middles, reach)):
+        corners = domain.triangles[blocks.hints[blocks.triangles[poor[at]]], :3].ravel()
+        log_factor[near] = log_factor[corners] = np.log(SHRINK)
+    least = LEAST * layout.side * layout.size.h[domain.source]
+    length = np.minimum(target.length, np.maximum(target.length * np.exp(log_factor), least))
+    mesh = Mesh(domain.points, domain.triangles[:, :3])
+    slope = min(target.gradient_limit, STEEPEST)
+    length = domain.scale * limit_gradient(mesh, length / domain.scale, slope)
+    return replace(layout, target=replace(target, length=length))
+
+
+def _quenched(domain: Domain, blocks: PlacedMesh, log_size: Floats, seed: int) -> PlacedMesh:
+    """Return blocks remeshed towards the wanted size where they are off it, and annealed in the cold."""
+    from .kernel.anneal import anneal
+    from .kernel.coarsen import coarsen
+    from .kernel.exchange import load, unload
+    from .kernel.state import POWER, TEMPERATURE
+    from .kernel.sweeps import relax_all, renew
+
+    state = load(domain, blocks, log_size, seed=seed)
+    coarsen(state, ROUNDS)
+    state.scalar[TEMPERATURE] = COLD
+    for _ in range(SWEEPS):
+        anneal(state, len(blocks.triangles))
+    for power in POWERS:
+        state.scalar[POWER] = power
+        renew(state)
+        relax_all(state, POLISH)
+    return unload(state)
+
+
+def _longest(mesh: PlacedMesh) -> Floats:
+    a, b, c = mesh.points[mesh.triangles].swapaxes(0, 1)
+    return np.asarray(np.maximum.reduce([np.linalg.norm(p - q, axis=1) for p, q in ((a, b), (b, c), (c, a))]))
