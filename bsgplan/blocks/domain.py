@@ -131,16 +131,17 @@ def domain_of(mesh: Mesh, *, interfaces: Bools | None = None, kept: Ints | None 
     """Return the domain of a planar mesh.
 
     interfaces marks interior edges of `mesh.topology` that no block may cross, (n_edges,); kept lists
-    points that must stay. Raises InvalidMesh for a surface in space.
+    points that must stay. Raises InvalidMesh for a surface in space and for triangles folded over others.
     """
     if not mesh.is_planar:
         raise InvalidMesh(
             "the mesh is a surface in space, blocks are laid out in the plane; "
             "project it (--lonlat for degrees)"
         )
-    fan = mesh.topology.corner_fan
+    cells = unfolded(mesh)
+    fan = topology(mesh.triangles[cells], mesh.n_points).corner_fan
     source = np.empty(int(fan.max()) + 1, dtype=np.int64)
-    source[fan] = mesh.triangles
+    source[fan] = mesh.triangles[cells]
     low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)
     origin, scale = (low + high) / 2, float((high - low).max())
     points = (mesh.points[source] - origin) / scale
@@ -153,7 +154,7 @@ def domain_of(mesh: Mesh, *, interfaces: Bools | None = None, kept: Ints | None 
     opposite = [1, 2, 0]  # the side opposite corner i runs from corner i + 1 to corner i + 2
     is_line = split.is_boundary_edge.copy()
     if interfaces is not None:
-        is_line[split.cell_edges] |= interfaces[mesh.topology.cell_edges]
+        is_line[split.cell_edges] |= interfaces[mesh.topology.cell_edges[cells]]
     side_edges = split.cell_edges[:, opposite]
     lines, codes = find_curves(fan, side_edges, split.edges, is_line, split.is_boundary_edge)
     is_kept = np.zeros(len(source), dtype=bool)
@@ -162,3 +163,31 @@ def domain_of(mesh: Mesh, *, interfaces: Bools | None = None, kept: Ints | None 
     return Domain(
         points, np.column_stack([fan, across[:, opposite]]), codes, lines, source, is_kept, origin, scale
     )
+
+
+def unfolded(mesh: Mesh) -> Ints:
+    """Return the triangles of a mesh without those at its boundary that are folded over their neighbours.
+
+    A sliver whose tip lies beyond the boundary, by rounding or by projection, lies on top of the triangles
+    beside it: both run along their common edge the same way. Raises InvalidMesh where it is no sliver of
+    the boundary.
+    """
+    start = mesh.triangles
+    is_forward = start < np.roll(start, -1, axis=1)
+    edge = mesh.topology.cell_edges
+    n_forward = np.bincount(edge[is_forward], minlength=len(mesh.topology.edges))
+    is_inner = ~mesh.topology.is_boundary_edge
+    is_clash = is_inner & (n_forward != 1)
+    if not is_clash.any():
+        return np.arange(mesh.n_triangles)
+    n_inner, n_clashes = is_inner[edge].sum(axis=1), is_clash[edge].sum(axis=1)
+    is_folded = (n_clashes > 0) & (n_clashes == n_inner) & (n_inner < 3)
+    beside = mesh.topology.edge_cells[is_clash]
+    is_left = ~is_folded[beside].any(axis=1)
+    if is_left.any() or is_folded.all():
+        first, second = beside[np.argmax(is_left)]
+        raise InvalidMesh(
+            f"triangles {first} and {second} lie on the same side of their common edge: the mesh is folded; "
+            "mend it there"
+        )
+    return np.flatnonzero(~is_folded)

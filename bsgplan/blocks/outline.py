@@ -23,14 +23,15 @@ def curve_sides(mesh: PlacedMesh) -> tuple[Ints, Ints]:
     return np.nonzero((mesh.codes >= 0) & (mesh.codes % 2 == 0))
 
 
-def n_crossings(points: Floats, segments: Ints) -> int:
-    """Return how many pairs of segments, (n, 2) points, cross properly."""
+def crossings(points: Floats, segments: Ints) -> Ints:
+    """Return the pairs of segments, (n, 2) points, that cross properly, (m, 2)."""
     lines = shapely.linestrings(points[segments])
-    first, second = shapely.STRtree(lines).query(lines, predicate="intersects")
-    is_pair = first < second
-    first, second = segments[first[is_pair]], segments[second[is_pair]]
+    pairs = np.stack(shapely.STRtree(lines).query(lines, predicate="intersects"), axis=1).astype(np.int64)
+    pairs = pairs[pairs[:, 0] < pairs[:, 1]]
+    first, second = segments[pairs[:, 0]], segments[pairs[:, 1]]
     is_apart = ~(first[:, :, None] == second[:, None, :]).any(axis=(1, 2))
-    return int(np.count_nonzero(cross_properly(points, first[is_apart], second[is_apart])))
+    pairs = pairs[is_apart]
+    return pairs[cross_properly(points, first[is_apart], second[is_apart])]
 
 
 def area_inside(points: Floats, segments: Ints, *, is_crossing: bool) -> float:

@@ -17,6 +17,7 @@ from ..sizing.limits import limit_gradient
 from .domain import Domain
 from .gridded import gridded
 from .layout import BlockGrid, BlockLayout
+from .outline import crossings, outline
 from .placed import PlacedMesh
 from .smooth import POOR, qualities
 
@@ -62,16 +63,23 @@ def repaired(grid: BlockGrid, *, seed: int) -> BlockGrid:
 
 
 def poor_blocks(grid: BlockGrid) -> Ints:
-    """Return the blocks that are inverted or have a triangle under POOR."""
-    is_poor = qualities(grid.layout.placed) <= 0
+    """Return the blocks that are inverted, cross others at the boundary or have a triangle under POOR."""
+    blocks = grid.layout.placed
+    is_poor = qualities(blocks) <= 0
+    at_boundary, _ = np.nonzero(blocks.neighbours < 0)  # in the order of the outline
+    is_poor[at_boundary[crossings(blocks.points, outline(blocks)).ravel()]] = True
     is_poor[grid.block[qualities(grid.placed) < POOR]] = True
     return np.flatnonzero(is_poor)
 
 
 def _merit(grid: BlockGrid) -> tuple[int, float]:
-    """Return what a better grid has more of: first minus the inverted triangles, then the least quality."""
-    block, fine = qualities(grid.layout.placed), qualities(grid.placed)
-    return -int(np.count_nonzero(block <= 0) + np.count_nonzero(fine <= 0)), float(fine.min())
+    """Return what a better grid has more of: minus the inverted triangles and crossings, the least quality."""
+    n_bad, least = 0, np.inf
+    for mesh in (grid.layout.placed, grid.placed):
+        quality = qualities(mesh)
+        n_bad += int(np.count_nonzero(quality <= 0)) + len(crossings(mesh.points, outline(mesh)))
+        least = float(quality.min())
+    return -n_bad, least
 
 
 def _lowered(layout: BlockLayout, poor: Ints) -> BlockLayout:

@@ -48,7 +48,7 @@ def subdivide(domain: Domain, blocks: PlacedMesh, side: int, log_size: Floats, *
     if len(triangle) and side > 1:
         curve, arc, bow = _bows(domain, blocks, triangle, at, side, log_size)
         nodes = numbers[triangle[:, None], lattice.sides[at]][:, 1:-1]
-        kinds[nodes], curves[nodes], arcs[nodes] = SLIDING, curve[:, None], arc[:, 1:-1]
+        kinds[nodes], curves[nodes], arcs[nodes] = SLIDING, curve[:, None], _on_curve(domain, curve, arc[:, 1:-1])
         if snap:
             bows[triangle, at] = bow
             points += _displacement(lattice, bows)
@@ -165,6 +165,12 @@ def _bows(
     bow = places.points(curve[:, None], arc) - chord
     bow[:, [0, -1]] = 0.0
     return curve, arc, bow
+
+
+def _on_curve(domain: Domain, curve: Ints, arc: Floats) -> Floats:
+    """Return arc lengths, (n, m), that may lie beyond the end of a closed curve, within the curve."""
+    length = domain.curve_lengths[curve][:, None]
+    return np.where(domain.lines.is_closed[curve][:, None] & (arc >= length), arc - length, arc)
 
 
 def _displacement(lattice: _Lattice, bows: Floats) -> Floats:

@@ -20,7 +20,7 @@ from ..mesh.topology import topology
 from .domain import Domain
 from .layout import BlockGrid, BlockLayout
 from .orientation import orientation
-from .outline import area_inside, curve_sides, distances, n_crossings, outline, rounds
+from .outline import area_inside, crossings, curve_sides, distances, outline, rounds
 from .placed import PlacedMesh
 
 AREA_TOLERANCE = 1e-9
@@ -86,7 +86,7 @@ def verify(grid: BlockGrid) -> Verdict:
     """Return the verdict on a grid of blocks and on the blocks themselves."""
     domain, blocks, fine = grid.layout.domain, grid.layout.placed, grid.placed
     own = outline_of(domain)
-    most_crossings = n_crossings(domain.points, own)
+    most_crossings = len(crossings(domain.points, own))
     checks: list[Check] = []
     counts = []
     for what, mesh in (("blocks", blocks), ("grid", fine)):
@@ -95,7 +95,7 @@ def verify(grid: BlockGrid) -> Verdict:
             nothing = float("nan")
             return Verdict(tuple(checks), nothing, 0, most_crossings, nothing)
         edges = outline(mesh)
-        counts.append(n_crossings(mesh.points, edges))
+        counts.append(len(crossings(mesh.points, edges)))
         checks += _place_checks(what, domain, mesh, counts[-1], most_crossings, edges)
     side = grid.layout.side
     deviation = deviation_of(domain, fine, grid.layout.size.h[domain.source] / domain.scale)
