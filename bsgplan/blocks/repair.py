@@ -12,7 +12,6 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ..arrays import Floats, Ints
-from ..mesh import Mesh
 from ..sizing.limits import limit_gradient
 from .domain import Domain
 from .gridded import gridded
@@ -20,6 +19,7 @@ from .layout import BlockGrid, BlockLayout
 from .outline import crossings, outline
 from .placed import PlacedMesh
 from .smooth import POOR, qualities
+from .target import n_blocks
 
 ROUNDS = 3
 """Repairs one after the other; each begins with what the one before left."""
@@ -93,10 +93,10 @@ def _lowered(layout: BlockLayout, poor: Ints) -> BlockLayout:
         log_factor[near] = log_factor[corners] = np.log(SHRINK)
     least = LEAST * layout.side * layout.size.h[domain.source]
     length = np.minimum(target.length, np.maximum(target.length * np.exp(log_factor), least))
-    mesh = Mesh(domain.points, domain.triangles[:, :3])
     slope = min(target.gradient_limit, STEEPEST)
-    length = domain.scale * limit_gradient(mesh, length / domain.scale, slope)
-    return replace(layout, target=replace(target, length=length))
+    own_length = limit_gradient(domain.mesh, length / domain.scale, slope)
+    counts = target.blocks | {"repair": n_blocks(domain, own_length)}
+    return replace(layout, target=replace(target, length=domain.scale * own_length, blocks=counts))
 
 
 def _quenched(domain: Domain, blocks: PlacedMesh, log_size: Floats, seed: int) -> PlacedMesh:

@@ -69,3 +69,10 @@ def random_domains(draw: st.DrawFn) -> SizeField:
     slope = draw(st.sampled_from([0.0, 0.4, 1.0]))
     h = 0.08 * np.exp(slope * mesh.points @ random.uniform(-1, 1, 2))
     return SizeField(mesh, h)
+
+
+def on_rectangle(mesh: Mesh, low: float, high: float) -> Bools:
+    """Edges of a mesh of unit squares that lie on the square from (low, low) to (high, high), (n_edges,)."""
+    is_on = np.abs(mesh.points - (low + high) / 2).max(axis=1) == (high - low) / 2
+    a, b = mesh.points[mesh.topology.edges].swapaxes(0, 1)
+    return is_on[mesh.topology.edges].all(axis=1) & (a == b).any(axis=1)
