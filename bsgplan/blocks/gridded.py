@@ -1,4 +1,4 @@
-"""The verb gridded: a layout's blocks cut into triangles, on the true boundary and smoothed unless straight."""
+"""The verb gridded: a layout's blocks cut into triangles, on the true boundary and smooth unless straight."""
 
 from __future__ import annotations
 

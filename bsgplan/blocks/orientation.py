@@ -9,8 +9,8 @@ import numpy as np
 from ..arrays import Bools, Floats, Ints
 
 FILTER = 3.3306690738754716e-16
-"""A determinant larger than this share of its two products' sizes has the sign that it shows: (3 + 16 eps) eps
-with eps = 2^-53, [Shewchuk 1997, Adaptive Precision Floating-Point Arithmetic], ccwerrboundA."""
+"""A determinant larger than this share of its two products' sizes has the sign that it shows: (3 + 16 eps)
+eps with eps = 2^-53, [Shewchuk 1997, Adaptive Precision Floating-Point Arithmetic], ccwerrboundA."""
 
 
 def orientation(a: Floats, b: Floats, c: Floats) -> Ints:

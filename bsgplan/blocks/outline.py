@@ -20,7 +20,8 @@ def outline(mesh: PlacedMesh) -> Ints:
 
 def curve_sides(mesh: PlacedMesh) -> tuple[Ints, Ints]:
     """Return triangle and side of each edge on a curve, once: where the triangle runs along it, (n,) each."""
-    return np.nonzero((mesh.codes >= 0) & (mesh.codes % 2 == 0))
+    triangle, side = np.nonzero((mesh.codes >= 0) & (mesh.codes % 2 == 0))
+    return triangle, side
 
 
 def crossings(points: Floats, segments: Ints) -> Ints:

@@ -73,7 +73,7 @@ def poor_blocks(grid: BlockGrid) -> Ints:
 
 
 def _merit(grid: BlockGrid) -> tuple[int, float]:
-    """Return what a better grid has more of: minus the inverted triangles and crossings, the least quality."""
+    """Return what a better grid has more of: minus inverted triangles and crossings, the least quality."""
     n_bad, least = 0, np.inf
     for mesh in (grid.layout.placed, grid.placed):
         quality = qualities(mesh)

@@ -48,7 +48,11 @@ def subdivide(domain: Domain, blocks: PlacedMesh, side: int, log_size: Floats, *
     if len(triangle) and side > 1:
         curve, arc, bow = _bows(domain, blocks, triangle, at, side, log_size)
         nodes = numbers[triangle[:, None], lattice.sides[at]][:, 1:-1]
-        kinds[nodes], curves[nodes], arcs[nodes] = SLIDING, curve[:, None], _on_curve(domain, curve, arc[:, 1:-1])
+        kinds[nodes], curves[nodes], arcs[nodes] = (
+            SLIDING,
+            curve[:, None],
+            _on_curve(domain, curve, arc[:, 1:-1]),
+        )
         if snap:
             bows[triangle, at] = bow
             points += _displacement(lattice, bows)

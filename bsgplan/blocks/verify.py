@@ -145,7 +145,9 @@ def _topology_checks(what: str, layout: BlockLayout, mesh: PlacedMesh) -> Iterat
         off_round = float(np.abs(rounds(domain, mesh) - 1.0).max())
         yield Check(f"curves covered by the {what}, off once", off_round, ROUND_TOLERANCE)
     fixed = domain.points[layout.target.is_corner | domain.is_kept | domain.lines.is_junction]
-    yield Check(f"corners, junctions and kept points missing in the {what}", float(_n_missing(fixed, mesh.points)), 0)
+    yield Check(
+        f"corners, junctions and kept points missing in the {what}", float(_n_missing(fixed, mesh.points)), 0
+    )
 
 
 def _place_checks(

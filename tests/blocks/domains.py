@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import shapely
-from scipy.spatial import Delaunay
 from hypothesis import strategies as st
+from scipy.spatial import Delaunay
 
-from bsgplan.arrays import Bools, Floats, Ints
+from bsgplan.arrays import Bools
 from bsgplan.mesh import Mesh, clean
 from bsgplan.sizing import SizeField
 
@@ -18,7 +18,12 @@ def grid_mesh(n_x: int, n_y: int, keep: np.ndarray | None = None) -> Mesh:
     """Unit squares, each cut in two; keep picks squares, (n_x, n_y)."""
     squares = np.argwhere(np.ones((n_x, n_y), bool) if keep is None else keep)
     i, j = squares.T
-    a, b, c, d = i * (n_y + 1) + j, (i + 1) * (n_y + 1) + j, (i + 1) * (n_y + 1) + j + 1, i * (n_y + 1) + j + 1
+    a, b, c, d = (
+        i * (n_y + 1) + j,
+        (i + 1) * (n_y + 1) + j,
+        (i + 1) * (n_y + 1) + j + 1,
+        i * (n_y + 1) + j + 1,
+    )
     is_even = ((i + j) % 2 == 0)[:, None]
     first = np.where(is_even, np.column_stack([a, b, c]), np.column_stack([a, b, d]))
     second = np.where(is_even, np.column_stack([a, c, d]), np.column_stack([b, c, d]))
@@ -32,7 +37,7 @@ def edges_where(mesh: Mesh, is_on: Bools) -> Bools:
 
 
 def polygon_mesh(polygon: shapely.Polygon, step: float, seed: int) -> Mesh:
-    """Triangles inside a polygon: its boundary cut into steps, a jittered lattice inside, constrained Delaunay."""
+    """Triangles inside a polygon: its boundary cut into steps, a jittered lattice inside, Delaunay."""
     random = np.random.default_rng(seed)
     rings = [polygon.exterior, *polygon.interiors]
     fine = shapely.segmentize(polygon, step)
@@ -62,7 +67,9 @@ def random_domains(draw: st.DrawFn) -> SizeField:
     shape = shape.union(shapely.Point(0, 0).buffer(0.3, quad_segs=3))
     for _ in range(draw(st.integers(0, 3))):
         at = random.uniform(-0.5, 0.5, 2)
-        shape = shape.difference(shapely.Point(at).buffer(random.uniform(0.04, 0.2), quad_segs=random.integers(1, 4)))
+        shape = shape.difference(
+            shapely.Point(at).buffer(random.uniform(0.04, 0.2), quad_segs=random.integers(1, 4))
+        )
     if shape.geom_type != "Polygon":
         shape = max(shape.geoms, key=lambda part: part.area)
     mesh = polygon_mesh(shape, draw(st.sampled_from([0.06, 0.1, 0.2])), seed)

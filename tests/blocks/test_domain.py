@@ -74,7 +74,10 @@ def test_an_interface_across_cuts_the_boundary() -> None:
     is_corner, turning = find_corners(domain, np.full(domain.n_points, 1.0 / domain.scale))
     placed = place(domain, is_corner, turning)
     ends = placed.kinds == JUNCTION
-    at = {tuple(p): goal for p, goal in zip(domain.to_mesh(placed.points[ends]), placed.goals[ends], strict=True)}
+    at = {
+        tuple(p): goal
+        for p, goal in zip(domain.to_mesh(placed.points[ends]), placed.goals[ends], strict=True)
+    }
     assert at == {(3.0, 0.0): pytest.approx(4.0), (3.0, 3.0): pytest.approx(1 + 270 / 60)}
     inside = placed.codes[(placed.codes >= 0) & (placed.neighbours >= 0)]
     assert sorted(set((inside % 2).tolist())) == [0, 1]

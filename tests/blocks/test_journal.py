@@ -38,7 +38,9 @@ from bsgplan.blocks.placed import place
 N_MOVES = 250
 
 
-@pytest.mark.parametrize(("name", "seed"), [("holed", 11), ("interfaces", 12), ("pinched", 13), ("strip", 14)])
+@pytest.mark.parametrize(
+    ("name", "seed"), [("holed", 11), ("interfaces", 12), ("pinched", 13), ("strip", 14)]
+)
 def test_moves_leave_what_a_rebuilt_state_has(name: str, seed: int) -> None:
     """Committed moves keep every invariant and DELTA is the difference; undone moves leave no trace."""
     state = _state(name, seed)
@@ -109,7 +111,9 @@ def assert_is_state(state: State) -> None:
         assert vertices[v, VALENCE] == len(others)
         assert v in rows[vertices[v, TRIANGLE], :3]
         assert state.value[v, ENERGY] == pytest.approx(valence_energy(state, v))
-    assert [state.energy[t] for t in live] == pytest.approx([triangle_energy(state, t) for t in live], rel=1e-9)
+    assert [state.energy[t] for t in live] == pytest.approx(
+        [triangle_energy(state, t) for t in live], rel=1e-9
+    )
 
 
 def _move(state: State, random: np.random.Generator) -> bool:

@@ -40,7 +40,16 @@ def laid_out(mesh: Mesh, h: float, tris_per_block: int = 16, *, effort: int = 4,
         LOOP | domains.edges_where(SQUARE, (X == 6) & (Y >= 9) & (Y <= 10)),
         domains.on_rectangle(SQUARE, 5, 7),
     ],
-    ids=["across", "ends inside", "inside", "cross", "closed", "lollipop", "short tail", "smaller than a block"],
+    ids=[
+        "across",
+        "ends inside",
+        "inside",
+        "cross",
+        "closed",
+        "lollipop",
+        "short tail",
+        "smaller than a block",
+    ],
 )
 def test_interfaces_are_kept(interfaces: Bools) -> None:
     """Edges of blocks run along them, the whole way: no triangle lies on both sides."""
@@ -73,19 +82,22 @@ def weak_domains() -> dict[str, Mesh]:
     name = np.arange(len(slit))
     name[on] = len(slit) + np.arange(len(on))
     is_right = SQUARE.centroids[:, :1] > 6
+    island, splinter = [(5, 5), (5.8, 5), (5.3, 5.7)], [(5, 5), (7.8, 5), (5.1, 5.1)]
+    spike = [(0, 0), (10, 0), (10, 10), (5.2, 10), (5, 20), (4.8, 10), (0, 10)]
+    bowtie = np.array([[0.0, 0], [1, 0], [0.5, 0.5], [0, 1], [1, 1]])
     return {
         "one triangle": clean(np.array([[0.0, 0], [1, 0], [0.4, 0.8]]), np.array([[0, 1, 2]])).mesh,
-        "bowtie": clean(np.array([[0.0, 0], [1, 0], [0.5, 0.5], [0, 1], [1, 1]]),
-                        np.array([[0, 1, 2], [2, 4, 3]])).mesh,  # fmt: skip
+        "bowtie": clean(bowtie, np.array([[0, 1, 2], [2, 4, 3]])).mesh,
         "pinch": domains.grid_mesh(12, 6, pinch),
         "channel": domains.grid_mesh(16, 9, channel),
         "strip": domains.grid_mesh(30, 1),
-        "island of three": domains.polygon_mesh(box.difference(shapely.Polygon([(5, 5), (5.8, 5), (5.3, 5.7)])), 1, 1),
-        "splinter": domains.polygon_mesh(box.difference(shapely.Polygon([(5, 5), (7.8, 5), (5.1, 5.1)])), 0.7, 1),
-        "spike": domains.polygon_mesh(
-            shapely.Polygon([(0, 0), (10, 0), (10, 10), (5.2, 10), (5, 20), (4.8, 10), (0, 10)]), 0.5, 3),
-        "slit": Mesh(np.vstack([slit, slit[on]]), np.where(is_right, name[SQUARE.triangles], SQUARE.triangles)),
-    }  # fmt: skip
+        "island of three": domains.polygon_mesh(box.difference(shapely.Polygon(island)), 1, 1),
+        "splinter": domains.polygon_mesh(box.difference(shapely.Polygon(splinter)), 0.7, 1),
+        "spike": domains.polygon_mesh(shapely.Polygon(spike), 0.5, 3),
+        "slit": Mesh(
+            np.vstack([slit, slit[on]]), np.where(is_right, name[SQUARE.triangles], SQUARE.triangles)
+        ),
+    }
 
 
 @pytest.mark.parametrize("name", weak_domains())
@@ -110,7 +122,9 @@ def test_the_same_seed_gives_the_same_layout() -> None:
     )
 
 
-@pytest.mark.parametrize(("scale", "shift"), [(1.0, (4096.0, -512.0)), (2.0**-20, (0.0, 0.0)), (2.0**15, (0.0, 0.0))])
+@pytest.mark.parametrize(
+    ("scale", "shift"), [(1.0, (4096.0, -512.0)), (2.0**-20, (0.0, 0.0)), (2.0**15, (0.0, 0.0))]
+)
 def test_place_and_unit_do_not_matter(scale: float, shift: tuple[float, float]) -> None:
     """Powers of two change no digit: the same blocks, moved and scaled."""
     own = lay_out(SizeField(SQUARE, 0.4 + 0.05 * X), tris_per_block=16, effort=4, seed=3)

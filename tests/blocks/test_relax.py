@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import product
+
 import domains
 import numpy as np
 import pytest
@@ -16,13 +18,15 @@ from bsgplan.blocks.kernel.energy import triangle_energy
 from bsgplan.blocks.kernel.exchange import load, unload
 from bsgplan.blocks.kernel.relax import _derivatives
 from bsgplan.blocks.kernel.size_at import place_on_curve
-from bsgplan.blocks.kernel.state import BEND, POWER, SIZE
+from bsgplan.blocks.kernel.state import BEND, POWER, SIZE, State
 from bsgplan.blocks.kernel.sweeps import relax_all, renew
 from bsgplan.blocks.kernel.walk import locate
 from bsgplan.blocks.placed import SLIDING, place
 from bsgplan.blocks.smooth import qualities, smooth
 
-HOLED = domain_of(domains.polygon_mesh(shapely.box(0, 0, 5, 4).difference(shapely.Point(2, 2).buffer(1)), 0.5, 5))
+HOLED = domain_of(
+    domains.polygon_mesh(shapely.box(0, 0, 5, 4).difference(shapely.Point(2, 2).buffer(1)), 0.5, 5)
+)
 NOWHERE, STRAIGHT = np.zeros(HOLED.n_points, bool), np.zeros(HOLED.n_points)
 
 
@@ -38,13 +42,8 @@ def test_derivatives_are_those_of_differences(power: float) -> None:
         at = state.point[v].copy()
         state.point[v] += random.uniform(-0.1, 0.1, 2)
         exact = np.array(_derivatives(state, t, v))
-        here, step = state.point[v].copy(), 1e-5
-
-        def energy(dx: float, dy: float) -> float:
-            state.point[v] = here + step * np.array([dx, dy])
-            return float(triangle_energy(state, t))
-
-        near = {(i, j): energy(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)}
+        step = 1e-5
+        near = _energies(state, t, v, step)
         gradient = [(near[1, 0] - near[-1, 0]) / (2 * step), (near[0, 1] - near[0, -1]) / (2 * step)]
         hessian = [
             (near[1, 0] - 2 * near[0, 0] + near[-1, 0]) / step**2,
@@ -54,6 +53,16 @@ def test_derivatives_are_those_of_differences(power: float) -> None:
         assert exact[:2] == pytest.approx(gradient, rel=1e-4, abs=1e-4 * np.abs(gradient).max())
         assert exact[2:] == pytest.approx(hessian, rel=1e-3, abs=2e-3 * np.abs(hessian).max() + 1e-3)
         state.point[v] = at
+
+
+def _energies(state: State, t: int, v: int, step: float) -> dict[tuple[int, int], float]:
+    """Energies of triangle t with vertex v moved by (i, j) steps, i and j -1, 0 or 1."""
+    here, result = state.point[v].copy(), {}
+    for i, j in product((-1, 0, 1), repeat=2):
+        state.point[v] = here + step * np.array([i, j])
+        result[i, j] = float(triangle_energy(state, t))
+    state.point[v] = here
+    return result
 
 
 def test_relaxation_only_lowers_the_energy() -> None:
@@ -79,7 +88,9 @@ def test_smoothing_never_lowers_the_least_quality(seed: int) -> None:
     """Whatever the start and the sizes; nodes on curves stay on them."""
     random = np.random.default_rng(seed)
     mesh = place(HOLED, NOWHERE, STRAIGHT)
-    moved = mesh.points + np.where(HOLED.is_boundary[:, None], 0.0, random.uniform(-0.05, 0.05, mesh.points.shape))
+    moved = mesh.points + np.where(
+        HOLED.is_boundary[:, None], 0.0, random.uniform(-0.05, 0.05, mesh.points.shape)
+    )
     start = load(HOLED, mesh, STRAIGHT)
     start.point[: HOLED.n_points] = moved
     start = unload(start)

@@ -16,13 +16,15 @@ from bsgplan.blocks.outline import rounds
 from bsgplan.blocks.placed import PlacedMesh, place
 from bsgplan.blocks.subdivide import subdivide
 
-HOLED = domain_of(domains.polygon_mesh(shapely.box(0, 0, 5, 4).difference(shapely.Point(2, 2).buffer(1)), 0.9, 5))
+HOLED = domain_of(
+    domains.polygon_mesh(shapely.box(0, 0, 5, 4).difference(shapely.Point(2, 2).buffer(1)), 0.9, 5)
+)
 
 
 @pytest.mark.parametrize("side", [1, 2, 3, 8])
 @pytest.mark.parametrize("snap", [False, True])
 def test_counts_are_the_closed_form(side: int, snap: bool) -> None:
-    """V + (s - 1) E + (s - 1)(s - 2)/2 F nodes, every triangle beside its own, the outline of s times as many."""
+    """V + (s - 1) E + (s - 1)(s - 2)/2 F nodes, an outline of s times as many edges."""
     blocks = _blocks()
     cut = subdivide(HOLED, blocks, side, np.zeros(HOLED.n_points), snap=snap)
     n_edges, n_blocks = len(blocks.topology.edges), len(blocks.triangles)

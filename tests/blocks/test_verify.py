@@ -66,7 +66,10 @@ def off_the_boundary(fine: PlacedMesh) -> PlacedMesh:
 
 def slid_past(fine: PlacedMesh) -> PlacedMesh:
     """Swaps the arcs of two neighbours on a curve."""
-    t, side = (int(rows[0]) for rows in np.nonzero((fine.codes >= 0) & (fine.kinds[fine.triangles[:, [1, 2, 0]]] == 1)))
+    t, side = (
+        int(rows[0])
+        for rows in np.nonzero((fine.codes >= 0) & (fine.kinds[fine.triangles[:, [1, 2, 0]]] == 1))
+    )
     a, b = fine.triangles[t, (side + 1) % 3], fine.triangles[t, (side + 2) % 3]
     arcs = fine.arcs.copy()
     arcs[[a, b]] = arcs[[b, a]]
@@ -83,7 +86,9 @@ def slid_past(fine: PlacedMesh) -> PlacedMesh:
         (slid_past, "curves covered by the grid, off once"),
     ],
 )
-def test_every_damage_is_found(grid: BlockGrid, damage: Callable[[PlacedMesh], PlacedMesh], name: str) -> None:
+def test_every_damage_is_found(
+    grid: BlockGrid, damage: Callable[[PlacedMesh], PlacedMesh], name: str
+) -> None:
     """And the grid is refused with that reason."""
     broken = replace(grid, placed=damage(grid.placed))
     assert not verify(broken).is_valid
