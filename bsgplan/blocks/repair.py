@@ -16,19 +16,19 @@ from ..sizing.limits import limit_gradient
 from .domain import Domain
 from .gridded import gridded
 from .layout import BlockGrid, BlockLayout
-from .outline import crossings, outline
+from .outline import crossings, outline, outline_of
 from .placed import PlacedMesh
 from .smooth import POOR, qualities
 from .target import n_blocks
 
 ROUNDS = 3
-"""Repairs one after the other; each begins with what the one before left."""
+"""Repairs one after the other; each begins with what the one before left, until one does not help."""
 
 SHRINK = 0.6
 """The wanted block edge at a poor block is lowered by this factor, ..."""
 
-LEAST = 0.2
-"""... but to no less than this share of s h."""
+LEAST = 0.5
+"""... but to no less than this multiple of h: sides as short as the input's follow its boundary."""
 
 REACH = 0.75
 """It is lowered within this multiple of the block's longest edge from its middle."""
@@ -57,8 +57,9 @@ def repaired(grid: BlockGrid, *, seed: int) -> BlockGrid:
         log_size = np.log(layout.target.length / layout.domain.scale)
         blocks = _quenched(layout.domain, layout.placed, log_size, seed + turn)
         current = gridded(replace(layout, placed=blocks), is_straight=grid.is_straight)
-        if _merit(current) > (_merit(best)[0], _merit(best)[1] + GAIN):
-            best = current
+        if _merit(current) <= (_merit(best)[0], _merit(best)[1] + GAIN):
+            break
+        best = current
     return best
 
 
@@ -66,8 +67,10 @@ def poor_blocks(grid: BlockGrid) -> Ints:
     """Return the blocks that are inverted, cross others at the boundary or have a triangle under POOR."""
     blocks = grid.layout.placed
     is_poor = qualities(blocks) <= 0
-    at_boundary, _ = np.nonzero(blocks.neighbours < 0)  # in the order of the outline
-    is_poor[at_boundary[crossings(blocks.points, outline(blocks)).ravel()]] = True
+    crossing, domain = crossings(blocks.points, outline(blocks)), grid.layout.domain
+    if len(crossing) > len(crossings(domain.points, outline_of(domain))):
+        at_boundary, _ = np.nonzero(blocks.neighbours < 0)  # in the order of the outline
+        is_poor[at_boundary[crossing.ravel()]] = True
     is_poor[grid.block[qualities(grid.placed) < POOR]] = True
     return np.flatnonzero(is_poor)
 
@@ -91,7 +94,7 @@ def _lowered(layout: BlockLayout, poor: Ints) -> BlockLayout:
     for at, near in enumerate(cKDTree(domain.points).query_ball_point(middles, reach)):
         corners = domain.triangles[blocks.hints[blocks.triangles[poor[at]]], :3].ravel()
         log_factor[near] = log_factor[corners] = np.log(SHRINK)
-    least = LEAST * layout.side * layout.size.h[domain.source]
+    least = LEAST * layout.size.h[domain.source]
     length = np.minimum(target.length, np.maximum(target.length * np.exp(log_factor), least))
     slope = min(target.gradient_limit, STEEPEST)
     own_length = limit_gradient(domain.mesh, length / domain.scale, slope)

@@ -20,7 +20,7 @@ from ..mesh.topology import topology
 from .domain import Domain
 from .layout import BlockGrid, BlockLayout
 from .orientation import orientation
-from .outline import area_inside, crossings, curve_sides, distances, outline, rounds
+from .outline import area_inside, crossings, curve_sides, distances, outline, outline_of, rounds
 from .placed import PlacedMesh
 
 AREA_TOLERANCE = 1e-9
@@ -173,12 +173,6 @@ def _place_checks(
         abs(summed_area - inside) / summed_area,
         AREA_TOLERANCE + n_crossing * largest / summed_area,  # a crossing overlaps less than a triangle
     )
-
-
-def outline_of(domain: Domain) -> Ints:
-    """Return the boundary edges of a domain, (n, 2)."""
-    triangle, side = np.nonzero(domain.triangles[:, 3:] < 0)
-    return np.column_stack([domain.triangles[triangle, (side + step) % 3] for step in (1, 2)])
 
 
 def deviation_of(domain: Domain, mesh: PlacedMesh, h: Floats) -> float:
