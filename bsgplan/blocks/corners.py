@@ -13,6 +13,9 @@ SHARP = np.radians(50.0)
 WINDOW = 0.5
 """Half-width of the window in wanted block edges."""
 
+SPACING = 1.5
+"""A corner silences others within this many windows: corners closer than a block force short edges."""
+
 LOOP_SHARE = 1 / 6
 """The window is at most this share of a curve's length."""
 
@@ -72,7 +75,7 @@ def _sharpest(arc: Floats, turn: Floats, window: Floats, period: float) -> Ints:
     for i in candidates[np.argsort(-turn[candidates], kind="stable")]:
         if kept:
             gap = np.abs(arc[kept] - arc[i])
-            if (np.minimum(gap, period - gap) < window[kept]).any():
+            if (np.minimum(gap, period - gap) < SPACING * window[kept]).any():
                 continue
         kept.append(int(i))
     return np.array(sorted(kept), dtype=np.int64)

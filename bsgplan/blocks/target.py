@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..arrays import Bools, Floats, frozen_floats
+from ..arrays import Bools, Floats, frozen_floats, sums_by
 from ..sizing import SizeField
 from ..sizing.field import EQUILATERAL
 from ..sizing.limits import limit_gradient
@@ -31,6 +31,9 @@ FLOORS = (0.25, 0.35, 0.5)
 
 BOUNDARY_COST = 1.5
 """The floor rises until the boundary costs at most this factor in blocks."""
+
+SMALL, SMALL_FLOOR = 8, 0.08
+"""A component that wants fewer blocks than this has a floor of its own: slivers off the coast are cheap."""
 
 PASSES = 2
 """Corners and limits are found so many times, each with the windows of the edges found before."""
@@ -69,9 +72,9 @@ def target_of(domain: Domain, size: SizeField, side: int, *, gradient_limit: flo
     h = size.h[domain.source] / domain.scale
     wanted = side * h
     length = wanted
-    plain = n_blocks(domain, wanted)
+    plain, is_small = n_blocks(domain, wanted), _is_small(domain, wanted)
     for floor in FLOORS:
-        least = max(floor, 1 / side)  # no block edge shorter than the input's own
+        least = np.where(is_small, SMALL_FLOOR, max(floor, 1 / side))  # no edge shorter than the input's
         length, slope, rough = _limited(domain, wanted, h, least, gradient_limit)
         if n_blocks(domain, length) <= BOUNDARY_COST * plain:
             break
@@ -85,7 +88,7 @@ def target_of(domain: Domain, size: SizeField, side: int, *, gradient_limit: flo
 
 
 def _limited(
-    domain: Domain, wanted: Floats, h: Floats, least: float, gradient_limit: float | None
+    domain: Domain, wanted: Floats, h: Floats, least: Floats, gradient_limit: float | None
 ) -> tuple[Floats, float, float]:
     """Return the limited block edge, the bound on its gradient, and the raggedness."""
     length = wanted
@@ -100,8 +103,21 @@ def _limited(
 
 def n_blocks(domain: Domain, length: Floats) -> float:
     """Return the number of equilateral blocks of that edge length, in the domain's unit, that cover it."""
+    return float(_blocks(domain, length).sum())
+
+
+def _blocks(domain: Domain, length: Floats) -> Floats:
     mean = np.exp(np.log(length)[domain.triangles[:, :3]].mean(axis=1))
-    return float((domain.areas / (EQUILATERAL * mean**2)).sum())
+    return np.asarray(domain.areas / (EQUILATERAL * mean**2))
+
+
+def _is_small(domain: Domain, wanted: Floats) -> Bools:
+    """Return the points of components that want fewer than SMALL blocks, (n_points,)."""
+    component = domain.mesh.topology.component
+    total = sums_by(component, _blocks(domain, wanted), int(component.max()) + 1)
+    result = np.zeros(domain.n_points, dtype=bool)
+    result[domain.triangles[:, :3]] = (total < SMALL)[component][:, None]
+    return result
 
 
 def _slope(domain: Domain, wanted: Floats) -> float:
