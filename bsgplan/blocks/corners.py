@@ -43,7 +43,36 @@ def find_corners(domain: Domain, size: Floats) -> tuple[Bools, Floats]:
     return is_corner, turning
 
 
-def _turning(arc: Floats, points: Floats, is_closed: bool, window: Floats, own: slice) -> Floats:
+def boundary_goals(domain: Domain, size: Floats) -> Floats:
+    """Return the number of edges that suits a block vertex at each row of the curves, (k,).
+
+    On the boundary 1 + the angle of the domain over 60 degrees, rounded, the angle being that of two edges
+    of the wanted size, (n_points,), which end there; 6 on an interface.
+    """
+    goals = np.full(len(domain.curve_nodes), 6.0)
+    arcs, points = domain.curve_points[:, 2], domain.curve_points[:, :2]
+    for c, (first, stop, is_closed, is_inside) in enumerate(domain.curves):
+        if is_inside:
+            continue
+        own = slice(0, -1) if is_closed else slice(1, -1)
+        window = np.minimum(size[domain.curve_nodes[first:stop]], domain.curve_lengths[c] / 3)[own]
+        turn = np.zeros(stop - first)
+        turn[own] = _turning(arcs[first:stop], points[first:stop], bool(is_closed), window, own, (1.0,))
+        if is_closed:
+            turn[-1] = turn[0]
+        goals[first:stop] = np.maximum(3.0, np.rint(4.0 - turn / (np.pi / 3)))
+    return goals
+
+
+def _turning(
+    arc: Floats,
+    points: Floats,
+    is_closed: bool,
+    window: Floats,
+    own: slice,
+    shares: tuple[float, ...] = (1.0, 0.5),
+) -> Floats:
+    """Return how much a curve turns left at its own nodes: between means of chords before and after."""
     if is_closed:
         length = arc[-1]
         arc_round = np.concatenate([arc[:-1] - length, arc[:-1], arc + length])
@@ -58,7 +87,7 @@ def _turning(arc: Floats, points: Floats, is_closed: bool, window: Floats, own: 
 
     def tangent(sign: int) -> Floats:
         total = np.zeros_like(here)
-        for share in (1.0, 0.5):
+        for share in shares:
             chord = sign * (at(place + sign * share * window) - here)
             total += chord / np.maximum(np.linalg.norm(chord, axis=1), 1e-300)[:, None]
         return total

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 
-from ..arrays import Bools, Floats, Ints
+from ..arrays import Bools, Floats
 from .domain import Domain
 
 LOOP_EDGES = 5
@@ -26,7 +26,8 @@ CHANNEL = 1.15
 """Height of an equilateral triangle to its edge: a channel of width w carries edges of this times w."""
 
 WINDING = 3.0
-"""Two places of one loop face each other across a channel where the way along the loop is this many widths."""
+"""Two places of one loop face each other over a channel where the way along the loop is so many widths."""
+
 
 def boundary_limit(domain: Domain, length: Floats, h: Floats, is_corner: Bools) -> Floats:
     """Return the longest block edge that the boundary carries at each point, (n_points,); inf inside.
@@ -50,21 +51,30 @@ def _along_curve(rows: Floats, is_closed: bool, length: Floats, h: Floats, stop:
     """Return the longest edge at each node of one curve: by the corners beside it and by its bow."""
     arc, total = rows[:, 2], rows[-1, 2]
     behind, ahead = _to_corners(arc, is_closed, total, stop)
-    gap = behind + ahead
-    at_stop = np.flatnonzero(stop)
-    gap[at_stop] = np.minimum(gap[at_stop], _smaller_gap(arc, is_closed, total, at_stop))
+    gap = np.where(stop, np.minimum(behind, ahead), behind + ahead)
     if is_closed:
         axis = np.concatenate([arc[:-1] - total, arc[:-1], arc + total])
         xy = np.concatenate([rows[:-1, :2], rows[:-1, :2], rows[:, :2]])
     else:
         axis, xy = arc, rows[:, :2]
-    longest, is_open = np.minimum(1.5 * h, length), np.ones(len(arc), dtype=bool)
+    longest = np.minimum(1.5 * h, length)
+    is_open = np.ones(len(arc), dtype=bool)
     for edges in ARCS:
         want = np.minimum(edges * h, length)
-        low, high = arc - np.minimum(want / 2, behind), arc + np.minimum(want / 2, ahead)
-        ends = [np.column_stack([np.interp(x, axis, xy[:, i]) for i in range(2)]) for x in (low, high)]
-        chord = np.linalg.norm(ends[1] - ends[0], axis=1)
-        is_open &= (high - low) <= BOW * chord
+        # at a corner the arcs before and after it are tried apart: an edge ends there
+        low, high = (np.minimum(np.where(stop, want, want / 2), reach) for reach in (behind, ahead))
+        before, here, after = (
+            np.column_stack([np.interp(x, axis, xy[:, i]) for i in range(2)])
+            for x in (arc - low, arc, arc + high)
+        )
+        across = np.linalg.norm(after - before, axis=1)
+        one_sided = [np.linalg.norm(here - before, axis=1), np.linalg.norm(after - here, axis=1)]
+        is_straight = np.where(
+            stop,
+            (low <= BOW * one_sided[0]) & (high <= BOW * one_sided[1]),
+            low + high <= BOW * across,
+        )
+        is_open &= is_straight
         longest = np.where(is_open, np.maximum(longest, want), longest)
         if (want >= length).all():
             break
@@ -72,27 +82,21 @@ def _along_curve(rows: Floats, is_closed: bool, length: Floats, h: Floats, stop:
 
 
 def _to_corners(arc: Floats, is_closed: bool, total: float, stop: Bools) -> tuple[Floats, Floats]:
-    """Return the arc from each node back to the corner behind and on to the one ahead; inf without any."""
+    """Return the arc from each node back to the corner behind and on to the one ahead; inf without any.
+
+    At the ends of an open curve the arc beyond it is that within.
+    """
     at = np.unique(arc[stop])
-    if is_closed and len(at):
+    if is_closed:
         at = np.unique(np.concatenate([at - total, at, at + total]))
-    if not is_closed:
+    else:
         at = np.unique(np.concatenate([[0.0], at, [total]]))
     if not len(at):
         return np.full(len(arc), np.inf), np.full(len(arc), np.inf)
-    k = np.searchsorted(at, arc, side="right") - 1
-    behind = arc - at[np.maximum(k, 0)]
-    ahead = at[np.minimum(k + 1, len(at) - 1)] - arc
-    is_at = behind == 0.0  # at a corner itself the arc behind is the one before it
-    behind = np.where(is_at & (k > 0), arc - at[np.maximum(k - 1, 0)], behind)
-    return behind, ahead
-
-
-def _smaller_gap(arc: Floats, is_closed: bool, total: float, at_stop: Ints) -> Floats:
-    """Return the shorter of the two stretches beside each corner."""
-    behind, ahead = _to_corners(arc, is_closed, total, np.isin(np.arange(len(arc)), at_stop))
-    both = np.minimum(behind[at_stop], ahead[at_stop])
-    return np.where(both > 0, both, np.maximum(behind[at_stop], ahead[at_stop]))
+    at = np.concatenate([[-np.inf], at, [np.inf]])
+    behind = arc - at[np.searchsorted(at, arc, side="left") - 1]
+    ahead = at[np.searchsorted(at, arc, side="right")] - arc
+    return np.where(np.isinf(behind), ahead, behind), np.where(np.isinf(ahead), behind, ahead)
 
 
 def _channels(domain: Domain, length: Floats) -> Floats:
@@ -104,9 +108,7 @@ def _channels(domain: Domain, length: Floats) -> Floats:
     steps = np.linalg.norm(domain.points[edges[:, 1]] - domain.points[edges[:, 0]], axis=1)
     n = domain.n_points
     graph = coo_array((steps, (edges[:, 0], edges[:, 1])), shape=(n, n)).tocsr()
-    away, _, nearest = dijkstra(
-        graph, directed=False, indices=shore, min_only=True, return_predecessors=True
-    )
+    away, _, nearest = dijkstra(graph, directed=False, indices=shore, min_only=True, return_predecessors=True)
     a, b = nearest[edges].T
     width = away[edges].sum(axis=1) + steps
     curve, arc = domain.curve_of_point, domain.arc_of_point

@@ -17,7 +17,7 @@ from .limits import boundary_limit
 SLOPES = (0.6, 0.7, 0.8, 0.9, 1.0)
 """Bounds on the gradient of the block edge: the first on smooth domains, the last on ragged coasts."""
 
-COST = 1.15
+COST = 1.03
 """On smooth domains the bound is loosened until it costs at most this factor in blocks."""
 
 RAGGEDNESS = 0.04

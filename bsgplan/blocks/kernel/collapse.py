@@ -9,7 +9,7 @@ from .fan import corner_of, fan_of, n_common, side_to
 from .flip import MOST
 from .journal import give_up, keep_triangle, keep_vertex
 from .rows import anchor, relink
-from .size_at import look_up, place_on_curve
+from .size_at import goal_on_curve, look_up, place_on_curve
 from .state import CORNER, DELTA, GOAL, INTERIOR, KIND, SLIDING, VALENCE, State
 
 
@@ -109,6 +109,7 @@ def _move(state: State, t: int, side: int, keep: int, gone: int, code: int) -> N
         curve, start, end = side_arcs(state, t, side)
         keep_vertex(state, keep)
         place_on_curve(state, keep, curve, 0.5 * (start + end))
+        state.value[keep, GOAL] = goal_on_curve(state, keep)
 
 
 @compiled

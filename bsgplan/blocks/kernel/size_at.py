@@ -35,6 +35,13 @@ def place_on_curve(state: State, v: int, c: int, arc: float) -> None:
 
 
 @compiled
+def goal_on_curve(state: State, v: int) -> float:
+    """Return the valence that suits a sliding vertex where it is."""
+    _, k, share = polyline_place(state, state.vertex[v, CURVE], state.value[v, ARC])
+    return state.curve_point[k + 1 if share > 0.5 else k, 4]
+
+
+@compiled
 def polyline_place(state: State, c: int, arc: float) -> tuple[float, int, float]:
     """Return arc (within the curve), the segment it lies on, and where on that segment, 0 to 1."""
     first, stop = state.curve[c, 0], state.curve[c, 1]

@@ -9,7 +9,7 @@ from .fan import side_to
 from .flip import MOST
 from .journal import keep_vertex, take_triangle, take_vertex
 from .rows import anchor, put_triangle, relink
-from .size_at import look_up
+from .size_at import goal_on_curve, look_up
 from .state import ARC, CURVE, ENERGY, GOAL, HINT, INTERIOR, KIND, SLIDING, TRIANGLE, VALENCE, State
 
 
@@ -80,5 +80,6 @@ def _place(state: State, m: int, t: int, side: int, b: int, c: int, code: int) -
         curve, start, end = side_arcs(state, t, side)
         state.vertex[m, KIND], state.vertex[m, CURVE] = SLIDING, curve
         state.value[m, ARC] = 0.5 * (start + end)
-        state.value[m, GOAL] = 6.0 if state.curve[curve, 3] == 1 else 4.0
     look_up(state, m)
+    if code >= 0:
+        state.value[m, GOAL] = goal_on_curve(state, m)

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 
 from ...arrays import Floats, Ints
+from ..corners import boundary_goals
 from ..domain import Domain
 
 INTERIOR, SLIDING, CORNER, JUNCTION = 0, 1, 2, 3
@@ -82,7 +83,7 @@ class State(NamedTuple):
     map_u: Floats
     """Log of the wanted edge length at its points, (n,)."""
     curve_point: Floats
-    """Polylines of all curves, (k, 4): x, y, arc length, log of the wanted edge length."""
+    """Polylines of all curves, (k, 5): x, y, arc length, log of the wanted edge length, goal valence."""
     curve_triangle: Ints
     """A triangle of the domain at each polyline point, (k,)."""
     curve: Ints
@@ -114,7 +115,9 @@ def new_state(domain: Domain, log_size: Floats, points: Floats, rows: Ints, vert
         map_point=np.ascontiguousarray(domain.points),
         map_triangle=np.ascontiguousarray(domain.triangles),
         map_u=np.ascontiguousarray(log_size),
-        curve_point=np.column_stack([domain.curve_points, log_size[domain.curve_nodes]]),
+        curve_point=np.column_stack(
+            [domain.curve_points, log_size[domain.curve_nodes], boundary_goals(domain, np.exp(log_size))]
+        ),
         curve_triangle=np.ascontiguousarray(domain.curve_triangles),
         curve=np.ascontiguousarray(domain.curves),
     )

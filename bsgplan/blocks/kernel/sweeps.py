@@ -7,8 +7,20 @@ from .energy import is_upright, triangle_energy, valence_energy
 from .flip import can_flip, flip
 from .journal import begin, commit, rollback
 from .relax import relax_vertex
-from .size_at import look_up
-from .state import DELTA, ENERGY, N_TRIANGLES, N_VERTICES, OVERFLOW, TRIANGLE, VALENCE, State
+from .size_at import goal_on_curve, look_up
+from .state import (
+    DELTA,
+    ENERGY,
+    GOAL,
+    KIND,
+    N_TRIANGLES,
+    N_VERTICES,
+    OVERFLOW,
+    SLIDING,
+    TRIANGLE,
+    VALENCE,
+    State,
+)
 
 GAIN = 1e-9
 """A flip must lower the energy by more than this."""
@@ -32,6 +44,8 @@ def prepare(state: State) -> None:
     for v in range(state.counter[N_VERTICES]):
         if state.vertex[v, TRIANGLE] >= 0:
             look_up(state, v)
+            if state.vertex[v, KIND] == SLIDING:
+                state.value[v, GOAL] = goal_on_curve(state, v)
     renew(state)
 
 
