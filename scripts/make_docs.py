@@ -50,6 +50,7 @@ def region_of(name: str) -> str:
 
 TEXTS: dict[str, tuple[str, ...]] = {
     "info.txt": ("info", case("rectangle")),
+    "formats.txt": ("info", "--formats"),
     "square.txt": ("estimate", case("square")),
     "rectangle.txt": ("estimate", case("rectangle"), "--tris-per-block", "16"),
     "region.txt": ("estimate", case("rectangle"), "--region", region_of("rectangle")),

@@ -9,16 +9,21 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
+from ..errors import InvalidOption
+from .output import show
+
 if TYPE_CHECKING:
     from ..io import MeshFile
 
 SCHEMA = "bsgplan.info/1"
+FORMATS_SCHEMA = "bsgplan.formats/1"
 
 
 def info(
-    file: Path,
+    file: Path | None = None,
     /,
     *,
+    formats: Annotated[bool, Parameter(negative=(), show_default=False)] = False,
     lonlat: Annotated[bool, Parameter(negative=(), show_default=False)] = False,
     json: Annotated[bool, Parameter(negative=(), show_default=False)] = False,
 ) -> None:
@@ -28,11 +33,18 @@ def info(
     ----------
     file
         The mesh file.
+    formats
+        Instead: list the formats that are read and written.
     lonlat
         The coordinates are degrees of longitude and latitude: project them, and give lengths in metres.
     json
         Write one JSON document instead of the table.
     """
+    if formats and file is None:
+        _show_formats(is_json=json)
+        return
+    if formats or file is None:
+        raise InvalidOption("info takes a mesh file or --formats, one of the two; see bsgplan info --help")
     from ..report import mesh_report
     from ..result import dumps, mesh_document
 
@@ -41,6 +53,16 @@ def info(
         sys.stdout.write(dumps({"schema": SCHEMA, "mesh": mesh}))
     else:
         sys.stdout.write(mesh_report.text(mesh_report.rows(mesh)) + "\n")
+
+
+def _show_formats(*, is_json: bool) -> None:
+    from .formats import format_document, format_table
+    from ..result import dumps
+
+    if is_json:
+        sys.stdout.write(dumps({"schema": FORMATS_SCHEMA, "formats": format_document()}))
+    else:
+        show([format_table()])
 
 
 def open_mesh(file: Path, *, is_lonlat: bool) -> MeshFile:

@@ -65,6 +65,10 @@ class MeshFile:
     """First line of a fort.14 file."""
     projection: Projection | None = None
     """The map from degrees to the plane of `mesh`; None where the file's own coordinates are kept."""
+    quad_nodes: Ints = field(default_factory=lambda: np.empty(0, dtype=np.int64))
+    """Index in the points of the mesh of each quad point, (n_quad_points,); -1 where no triangle has it."""
+    quad_point_data: dict[str, Floats] = field(default_factory=dict)
+    """Values at the points of the quads by name, (n_quad_points, ...)."""
 
     def __repr__(self) -> str:
         return f"MeshFile({self.path!r}, {self.format}, {self.mesh!r})"
@@ -100,7 +104,7 @@ def assemble(path: str, format: str, raw: RawMesh, projection: Projection | None
     new_index = np.full(len(raw.points), -1, dtype=np.int64)
     new_index[cleaned.kept_points] = np.arange(len(cleaned.kept_points))
     boundaries = tuple(boundary.renumbered(new_index) for boundary in raw.boundaries)
-    quad_points, quads = _quads_apart(raw)
+    quad_points, quads, used = _quads_apart(raw)
     n_unused = len(raw.points) - len(np.union1d(cleaned.kept_points, raw.quads.ravel()))
     n_lost = n_nodes(raw.boundaries) - n_nodes(boundaries)
     n_coincident = _n_coincident(cleaned.mesh.points)
@@ -119,6 +123,8 @@ def assemble(path: str, format: str, raw: RawMesh, projection: Projection | None
         mesh=cleaned.mesh,
         quads=frozen_ints(quads),
         quad_points=frozen_floats(quad_points),
+        quad_nodes=frozen_ints(new_index[used]),
+        quad_point_data={name: frozen_floats(v[used]) for name, v in raw.point_data.items()},
         point_data={name: frozen_floats(v[cleaned.kept_points]) for name, v in raw.point_data.items()},
         cell_data={name: frozen_floats(v) for name, v in raw.cell_data.items()},
         boundaries=boundaries,
@@ -157,12 +163,12 @@ def _check_duplicates(mesh: Mesh) -> None:
         )
 
 
-def _quads_apart(raw: RawMesh) -> tuple[Floats, Ints]:
+def _quads_apart(raw: RawMesh) -> tuple[Floats, Ints, Ints]:
     used, quads = np.unique(raw.quads, return_inverse=True)
     points = raw.points[used]
     if len(used) and points.shape[1] == 3 and is_planar(points):
         points = points[:, :2]
-    return points, quads.reshape(-1, 4).astype(np.int64)
+    return points, quads.reshape(-1, 4).astype(np.int64), used.astype(np.int64)
 
 
 def _n_coincident(points: Floats) -> int:

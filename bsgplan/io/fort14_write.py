@@ -15,7 +15,7 @@ from .boundary import Boundary, n_nodes
 from .file import MeshFile
 
 
-def write_fort14(path: str | os.PathLike[str], mesh_file: MeshFile) -> None:
+def write_fort14(mesh_file: MeshFile, path: str | os.PathLike[str]) -> None:
     """Write nodes, depth, triangles and the open and land boundaries; coordinates to the last bit.
 
     A projected mesh is written in degrees. Depth is the point array of that name, else 0. The file

@@ -7,7 +7,6 @@ from pathlib import Path
 
 from ..errors import BsgplanError, InvalidMesh, MeshReadError
 from .file import MeshFile, RawMesh, assemble
-from .fort14 import read_fort14
 from .projection import project_raw
 from .sniff import sniff
 
@@ -36,11 +35,7 @@ def read_lonlat(path: str | os.PathLike[str]) -> MeshFile:
 def _raw(path: Path) -> tuple[str, RawMesh]:
     file_format = sniff(path)
     try:
-        if file_format == "fort.14":
-            return file_format, read_fort14(path)
-        from .through_meshio import read_through_meshio
-
-        return file_format, read_through_meshio(path, file_format)
+        return file_format.name, file_format.read(path)
     except BsgplanError as error:
         raise MeshReadError(f"{path}: {error}") from None
     except OSError as error:
