@@ -56,8 +56,8 @@ def info(
 
 
 def _show_formats(*, is_json: bool) -> None:
-    from .formats import format_document, format_table
     from ..result import dumps
+    from .formats import format_document, format_table
 
     if is_json:
         sys.stdout.write(dumps({"schema": FORMATS_SCHEMA, "formats": format_document()}))

@@ -1,8 +1,8 @@
 """The registry of mesh file formats: what bsgplan reads and writes, and who does it.
 
-A reader is a function `path -> RawMesh`, a writer a function `(mesh_file, path) -> None` that writes the whole
-file or nothing. Both stand here by their import path and are imported when they are used, not before. An
-import path into meshio means: through `through_meshio`, which keeps meshio quiet.
+A reader is a function `path -> RawMesh`, a writer a function `(mesh_file, path) -> None` that writes the file
+whole or not at all. Both stand here by their import path and are imported when they are used, not before.
+An import path into meshio means: through `through_meshio`, which keeps meshio quiet.
 """
 
 from __future__ import annotations
