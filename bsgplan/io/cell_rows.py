@@ -29,6 +29,16 @@ class Cells:
     others: dict[str, int] = field(default_factory=dict)
     """Cells of all other types but points, by name, and how many."""
 
+    @property
+    def nodes(self) -> Ints:
+        """Every corner of a line, triangle or quad once, sorted, (n_nodes,)."""
+        return np.unique(np.concatenate([c.ravel() for c in (self.lines, self.triangles, self.quads)]))
+
+    def check(self, n_points: int, where: str) -> None:
+        """Raise MeshReadError at the first cell that names a point the file does not have."""
+        for kind, corners in (("line", self.lines), ("triangle", self.triangles), ("quad", self.quads)):
+            check_corners(corners, n_points, where + kind)
+
 
 def cells(rows: Rows, types: Mapping[int, tuple[str, int]], what: str, *, has_tag: bool) -> Cells:
     """Return the cells of rows `[tag] type corner corner ...`; types gives name and corners of each type.
@@ -68,7 +78,7 @@ def check_corners(corners: Ints, n_points: int, what: str) -> None:
     is_bad = ((corners < 0) | (corners >= n_points)).any(axis=1)
     if is_bad.any():
         first = int(np.flatnonzero(is_bad)[0])
-        outside = [c for c in corners[first].tolist() if not 0 <= c < n_points][0]
+        outside = next(c for c in corners[first].tolist() if not 0 <= c < n_points)
         raise MeshReadError(
             f"{what} {first} names point {outside}, the file has points 0 .. {n_points - 1}; repair the file"
         )

@@ -69,6 +69,9 @@ class MeshFile:
     """Index in the points of the mesh of each quad point, (n_quad_points,); -1 where no triangle has it."""
     quad_point_data: dict[str, Floats] = field(default_factory=dict)
     """Values at the points of the quads by name, (n_quad_points, ...)."""
+    all_boundaries: tuple[Boundary, ...] = ()
+    """The boundaries of triangles and quads together: points of quads alone follow those of the mesh,
+    in the order of `quad_points`. Empty where there are no quads: then `boundaries` says it all."""
 
     def __repr__(self) -> str:
         return f"MeshFile({self.path!r}, {self.format}, {self.mesh!r})"
@@ -105,6 +108,9 @@ def assemble(path: str, format: str, raw: RawMesh, projection: Projection | None
     new_index[cleaned.kept_points] = np.arange(len(cleaned.kept_points))
     boundaries = tuple(boundary.renumbered(new_index) for boundary in raw.boundaries)
     quad_points, quads, used = _quads_apart(raw)
+    is_own = new_index[used] < 0
+    all_index = new_index.copy()
+    all_index[used[is_own]] = len(cleaned.kept_points) + np.arange(np.count_nonzero(is_own))
     n_unused = len(raw.points) - len(np.union1d(cleaned.kept_points, raw.quads.ravel()))
     n_lost = n_nodes(raw.boundaries) - n_nodes(boundaries)
     n_coincident = _n_coincident(cleaned.mesh.points)
@@ -124,6 +130,7 @@ def assemble(path: str, format: str, raw: RawMesh, projection: Projection | None
         quads=frozen_ints(quads),
         quad_points=frozen_floats(quad_points),
         quad_nodes=frozen_ints(new_index[used]),
+        all_boundaries=tuple(b.renumbered(all_index) for b in raw.boundaries) if len(quads) else (),
         quad_point_data={name: frozen_floats(v[used]) for name, v in raw.point_data.items()},
         point_data={name: frozen_floats(v[cleaned.kept_points]) for name, v in raw.point_data.items()},
         cell_data={name: frozen_floats(v) for name, v in raw.cell_data.items()},

@@ -27,7 +27,7 @@ import numpy as np
 from ..arrays import Floats, Ints
 from ..errors import MeshReadError
 from .boundary import Boundary
-from .cell_rows import Cells, cells, check_corners
+from .cell_rows import Cells, cells
 from .file import RawMesh
 from .number_table import shown
 from .text_records import NO_ROWS, TextRecords
@@ -69,9 +69,8 @@ class _Sections:
             raise MeshReadError(f"no section {missing!r}; fetch the whole file")
         boundary = self.boundary or cells(NO_ROWS, GEOMETRIES, "", has_tag=True)
         others = dict(self.elements.others)
-        for part in (self.elements, boundary):
-            for corners, kind in ((part.lines, "segment"), (part.triangles, "triangle"), (part.quads, "square")):
-                check_corners(corners, len(self.points), ("boundary " if part is boundary else "") + kind)
+        for part, where in ((self.elements, ""), (boundary, "boundary ")):
+            part.check(len(self.points), where)
         triangles = np.concatenate([self.elements.triangles, boundary.triangles])
         quads = np.concatenate([self.elements.quads, boundary.quads])
         attributes = np.concatenate([self.elements.triangle_tags, boundary.triangle_tags])
@@ -158,7 +157,7 @@ def _sets(records: TextRecords) -> dict[int, str]:
         attributes = [_number(word) for word in words]
         if quoted is None or not attributes or attributes[0] != len(attributes) - 1 or min(attributes) < 0:
             raise MeshReadError(
-                f'line {records.line_number}: needs a set (\"name\", count, attributes), got {shown(line)}; '
+                f'line {records.line_number}: needs a set ("name", count, attributes), got {shown(line)}; '
                 "repair it"
             )
         for attribute in attributes[1:]:

@@ -52,7 +52,7 @@ class Variable:
         return array
 
 
-def read_variables(path: Path) -> tuple[dict[str, Variable], Callable[[], None]]:
+def read_variables(path: Path) -> tuple[dict[str, Variable], Callable[[], object]]:
     """Return the variables of a file by name, and the function that closes it."""
     with path.open("rb") as stream:
         signature = stream.read(4)
@@ -62,7 +62,7 @@ def read_variables(path: Path) -> tuple[dict[str, Variable], Callable[[], None]]
         return _through_netcdf4(path)
     except (BsgplanError, OSError):
         raise
-    except Exception as error:  # noqa: BLE001 - readers raise anything on a damaged file
+    except Exception as error:  # readers raise anything on a damaged file
         raise unreadable(error) from None
 
 
@@ -72,7 +72,7 @@ def unreadable(error: Exception) -> MeshReadError:
     return MeshReadError(f"not readable as netCDF ({reason}); fetch the file again")
 
 
-def _classic(path: Path) -> tuple[dict[str, Variable], Callable[[], None]]:
+def _classic(path: Path) -> tuple[dict[str, Variable], Callable[[], object]]:
     from scipy.io import netcdf_file
 
     size = path.stat().st_size
@@ -87,18 +87,22 @@ def _classic(path: Path) -> tuple[dict[str, Variable], Callable[[], None]]:
             tuple(variable.dimensions),
             shape,
             dict(variable._attributes),
-            lambda index, variable=variable: variable[index].copy(),
+            _copying(variable),
         )
         _check_size(name, shape, variable.itemsize(), size)
     return variables, found.close
 
 
-def _through_netcdf4(path: Path) -> tuple[dict[str, Variable], Callable[[], None]]:
+def _copying(variable: Any) -> Callable[[Any], Any]:
+    return lambda index: variable[index].copy()
+
+
+def _through_netcdf4(path: Path) -> tuple[dict[str, Variable], Callable[[], object]]:
     try:
         import netCDF4
     except ModuleNotFoundError:
         raise MeshReadError(
-            "this is netCDF-4, which needs the package netCDF4; pip install 'bsgplan[netcdf]', "
+            "this is netCDF-4 (or CDF-5), which needs the package netCDF4; pip install 'bsgplan[netcdf]', "
             "or make it classic with `nccopy -k classic`"
         ) from None
     size = path.stat().st_size

@@ -1,7 +1,7 @@
 """Reader of TELEMAC Selafin (SERAFIN) files: single and double precision, big-endian or little-endian.
 
-Grammar: Fortran records, each  length, bytes, length  with a length of 4 bytes; integers of 4 bytes, reals of 4
-or, where the title ends in SERAFIND, of 8:
+Grammar: Fortran records, each  length, bytes, length  with a length of 4 bytes; integers of 4 bytes, reals of
+4 or, where the title ends in SERAFIND, of 8:
 
     title                             80 characters, the last 8 SERAFIN or SERAFIND
     n_variables n_clandestine         2 integers
@@ -111,9 +111,7 @@ def read_selafin(path: Path) -> RawMesh:
         if n_frames:
             stream.seek((n_frames - 1) * frame_bytes, 1)
             records.reals(1, real_bytes, "the time of the last frame")
-            data |= {
-                name: records.reals(n_points, real_bytes, f"variable {name}") for name in header.names
-            }
+            data |= {name: records.reals(n_points, real_bytes, f"variable {name}") for name in header.names}
     return RawMesh(
         points=np.column_stack([x, y]) + np.array(header.origin, dtype=np.float64),
         triangles=corners - 1,

@@ -17,11 +17,8 @@ HEAD = 4096
 OTHER_FORMATS = {
     "gmsh1": ("Gmsh 1.0", "open it in Gmsh and save it as MSH 2.2 or 4.1"),
     "jigsaw": ("JIGSAW", "save it as .vtk from JIGSAW (savevtk) and give that"),
-    "mfem": ("MFEM", "save it as VTK from MFEM (mesh.PrintVTK) and give that"),
     "2dm": ("SMS 2dm", "export it as fort.14 (or .gr3) from SMS or QGIS and give that"),
     "triangle": ("Triangle .node/.ele", "convert it to .off or .vtk and give that"),
-    "netcdf": ("netCDF", "convert it to .vtu with meshio or xugrid and give that"),
-    "selafin": ("Selafin", "convert it to .vtk (TELEMAC run_telfile.py, or BlueKenue as .2dm) and give that"),
     "polydata": ("VTK PolyData", "save it as an unstructured grid (.vtu) and give that"),
     "hdf5": ("HDF5", "convert it to .vtu with `meshio convert` and give that"),
 }
@@ -31,7 +28,7 @@ SIGNATURES: tuple[tuple[bytes, str], ...] = (
     (rb"\s*\$NOD\b", "gmsh1"),
     (rb"\s*\$(MeshFormat|Comments)\b", "gmsh"),
     (rb"(\s*#[^\n]*\n)*\s*mshid\s*=", "jigsaw"),
-    (rb"MFEM (NC |NURBS )?mesh", "mfem"),
+    (rb"MFEM (NC |NURBS |INLINE )?mesh", "mfem"),
     (rb"(\s*#[^\n]*\n)*\s*MeshVersionFormatted\b", "medit"),
     (rb"MESH2D\b", "2dm"),
     (rb"(\s*%[^\n]*\n|\s*\n)*\s*(NZONE|NDIME|NELEM|NPOIN|IZONE|NMARK)\s*=", "su2"),
@@ -44,7 +41,7 @@ SIGNATURES: tuple[tuple[bytes, str], ...] = (
     (rb"(\s*<\?xml[^>]*>)?(\s*<!--.*?-->)*\s*<dolfin\b", "dolfin"),
     (rb"CDF[\x01\x02\x05]", "netcdf"),
     (rb"\x89HDF\r\n\x1a\n", "hdf5"),
-    (rb"\x00\x00\x00\x50.{80}\x00\x00\x00\x50", "selafin"),
+    (rb"\x00\x00\x00\x50.{80}\x00\x00\x00\x50|\x50\x00\x00\x00.{80}\x50\x00\x00\x00", "selafin"),
     (rb"(#[^\n]*\n|\s*\n)*(mesh3d|csg2d|csg3d)\b", "netgen"),
     (rb"\s*\(\s*[01]\s+\"", "ansys"),
 )
@@ -54,8 +51,7 @@ SPANNING = ("selafin", "vtu", "polydata", "dolfin", "xdmf")
 FORT14 = rb"[^\n]*\n[ \t]*\d+[ \t]+\d+\b[^\n]*\n[ \t]*\d+([ \t]+[-+]?[\d.]+([EeDd][-+]?\d+)?){3}"
 """A title, two counts, then a node: too weak a sign against a suffix that says otherwise."""
 
-SUFFIXES = {".2dm": "2dm", ".node": "triangle", ".ele": "triangle", ".nc": "netcdf", ".slf": "selafin",
-    ".vtp": "polydata"}  # fmt: skip
+SUFFIXES = {".2dm": "2dm", ".node": "triangle", ".ele": "triangle", ".vtp": "polydata"}
 """Suffixes of formats that are recognised only, beside those of the registry."""
 
 CONTAINERS = {"hdf5": ("med", "h5m", "cgns", "exodus", "netcdf"), "netcdf": ("exodus",)}

@@ -22,10 +22,10 @@ from pathlib import Path
 
 import numpy as np
 
-from ..arrays import Floats, Ints
+from ..arrays import Floats
 from ..errors import MeshReadError
 from .boundary import Boundary
-from .cell_rows import Cells, cells, check_corners
+from .cell_rows import Cells, cells
 from .file import RawMesh
 from .number_table import shown
 from .text_records import NO_ROWS, TextRecords
@@ -62,7 +62,7 @@ def _zones(records: TextRecords) -> list[Zone]:
     name, last_key = "", b""
     while (line := records.line()) is not None:
         key, equals, value = (part.strip() for part in line.partition(b"="))
-        key = key.upper()
+        key, number = key.upper(), records.line_number
         if not equals:
             if last_key in SECTIONS and (line[:1].isdigit() or line[:1] in b"+-."):
                 raise MeshReadError(
@@ -79,14 +79,14 @@ def _zones(records: TextRecords) -> list[Zone]:
         elif key == b"NDIME":
             zone.dimension = _count(records, key, value)
             if zone.dimension not in (2, 3):
-                raise MeshReadError(f"line {records.line_number}: NDIME= {zone.dimension} is not 2 or 3; repair it")
+                raise MeshReadError(f"line {number}: NDIME= {zone.dimension} is not 2 or 3; repair it")
         elif key == b"NELEM":
             _once(records, key, zone.elements)
             zone.elements = _cells(records, _count(records, key, value), "an element")
         elif key == b"NPOIN":
             _once(records, key, zone.points)
             if not zone.dimension:
-                raise MeshReadError(f"line {records.line_number}: NPOIN= stands before NDIME=; put NDIME= first")
+                raise MeshReadError(f"line {number}: NPOIN= stands before NDIME=; put NDIME= first")
             rows = records.rows(_count(records, key, value), "a point")
             zone.points = rows.columns(0, zone.dimension, "a point")
         elif key == b"MARKER_TAG":
@@ -104,9 +104,8 @@ def _zones(records: TextRecords) -> list[Zone]:
 def _count(records: TextRecords, key: bytes, value: bytes) -> int:
     words = value.split()
     if not words or not words[0].isdigit() or len(words[0]) > 18:
-        raise MeshReadError(
-            f"line {records.line_number}: {key.decode('ascii', 'replace')}= {shown(value)} is no count; repair it"
-        )
+        what = key.decode("ascii", "replace")
+        raise MeshReadError(f"line {records.line_number}: {what}= {shown(value)} is no count; repair it")
     return int(words[0])
 
 
@@ -136,17 +135,13 @@ def _joined(zones: list[Zone]) -> RawMesh:
         where = f"zone {zone.number}, " if len(zones) > 1 else ""
         points.append(_in_dimension(zone.points, dimension))
         for name, found in [("", zone.elements), *zone.markers]:
-            what = where + (f"marker {name!r}, " if name else "")
-            for corners, kind in ((found.lines, "line"), (found.triangles, "triangle"), (found.quads, "quad")):
-                check_corners(corners, len(zone.points), what + kind)
+            found.check(len(zone.points), where + (f"marker {name!r}, " if name else ""))
             triangles.append(found.triangles + n_points)
             quads.append(found.quads + n_points)
             zone_of.append(np.full(len(found.triangles), zone.number))
             if found is not zone.elements:
                 tag = int(name) if _is_small_number(name) else tag + 1
-                corners = (found.lines, found.triangles, found.quads)
-                nodes = np.unique(np.concatenate([c.ravel() for c in corners]))
-                boundaries.append(Boundary("named", nodes + n_points, tag, name))
+                boundaries.append(Boundary("named", found.nodes + n_points, tag, name))
             marker_of.append(np.full(len(found.triangles), 0 if found is zone.elements else tag))
             for kind, count in (("quad", len(found.quads)), *found.others.items()):
                 ignored[kind] = ignored.get(kind, 0) + count

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import importlib
 import io
-import re
 import types
 import warnings
 from collections.abc import Iterable
@@ -21,14 +20,13 @@ from .file import RawMesh
 
 CORNERS = (("triangle", 3), ("quad", 4), ("VTK_LAGRANGE_TRIANGLE", 3), ("VTK_LAGRANGE_QUADRILATERAL", 4))
 """Cell types, by how their name begins, that are taken by their first corners: higher orders too."""
-HIDDEN_ARRAYS = ("gmsh:dim_tags", "su2:tag")
+HIDDEN_ARRAYS = ("gmsh:dim_tags",)
 """Book-keeping of a reader, of no use as data."""
 PARTIAL_TAGS = "physical groups or data cover a part of the cells only; those arrays were left out"
 
 
 def read_through_meshio(path: Path, file_format: str) -> RawMesh:
     """Return what meshio's reader of that format finds in a file."""
-    markers = _su2_markers(path) if file_format == "su2" else {}
     with (
         warnings.catch_warnings(),
         contextlib.redirect_stdout(io.StringIO()),
@@ -37,7 +35,7 @@ def read_through_meshio(path: Path, file_format: str) -> RawMesh:
         warnings.simplefilter("ignore")
         try:
             found, notes = _read_gmsh(path) if file_format == "gmsh" else (_read(path, file_format), ())
-            return _converted(found, notes, markers)
+            return _converted(found, notes)
         except BsgplanError:
             raise
         except ModuleNotFoundError as error:
@@ -86,7 +84,7 @@ def _mesh_without_partial_data(points: Any, cells: Any, **data: Any) -> Any:
     return meshio.Mesh(points, cells, **data)
 
 
-def _converted(found: Any, notes: Iterable[str], markers: dict[int, str]) -> RawMesh:
+def _converted(found: Any, notes: Iterable[str]) -> RawMesh:
     points = np.asarray(found.points, dtype=np.float64)
     if points.ndim != 2 or points.shape[1] not in (2, 3):
         raise MeshReadError(f"points have shape {points.shape}, not 2 or 3 coordinates; check the file")
@@ -108,7 +106,7 @@ def _converted(found: Any, notes: Iterable[str], markers: dict[int, str]) -> Raw
         quads=_cells(found, corners, 4),
         point_data={name: values for name, values in point_data.items() if values is not None},
         cell_data={name: values for name, values in cell_data.items() if values is not None},
-        boundaries=_named_lines(found, markers),
+        boundaries=_named_lines(found),
         ignored=ignored,
         notes=tuple(notes),
     )
@@ -131,14 +129,13 @@ def _floats(values: Any) -> Floats | None:
     return array.astype(np.float64) if array.dtype.kind in "fiub" else None
 
 
-def _named_lines(found: Any, markers: dict[int, str]) -> tuple[Boundary, ...]:
+def _named_lines(found: Any) -> tuple[Boundary, ...]:
     """Return one boundary for each tag of the line cells: its points, each once, sorted."""
     groups = {
         int(pair[0]): name for name, pair in found.field_data.items() if np.size(pair) == 2 and pair[1] == 1
     }
-    names = markers or groups
     nodes_of: dict[int, list[Ints]] = {}
-    all_tags = found.cell_data.get("su2:tag") or found.cell_data.get("gmsh:physical") or []
+    all_tags = found.cell_data.get("gmsh:physical") or []
     for block, tags in zip(found.cells, all_tags, strict=False):
         if block.type.startswith("line"):
             for tag in np.unique(tags).tolist():
@@ -146,29 +143,10 @@ def _named_lines(found: Any, markers: dict[int, str]) -> tuple[Boundary, ...]:
                     np.asarray(block.data)[np.asarray(tags) == tag, :2].ravel()
                 )
     return tuple(
-        Boundary("named", np.unique(np.concatenate(nodes)).astype(np.int64), tag, names.get(tag, ""))
+        Boundary("named", np.unique(np.concatenate(nodes)).astype(np.int64), tag, groups.get(tag, ""))
         for tag, nodes in sorted(nodes_of.items())
         if (np.concatenate(nodes) < len(found.points)).all()
     )
-
-
-def _su2_markers(path: Path) -> dict[int, str]:
-    """Return the marker names of an SU2 file by the tags that meshio counts up for them.
-
-    Raises MeshReadError where it has several zones, of which meshio would mix the points.
-    """
-    text = path.read_text(encoding="utf-8", errors="replace")
-    zones = re.search(r"^\s*NZONE\s*=\s*(\d+)", text, re.MULTILINE)
-    if zones and int(zones[1]) > 1:
-        raise MeshReadError(
-            f"{zones[1]} zones, each with its own points; save one zone to a file of its own and give that"
-        )
-    names: dict[int, str] = {}
-    tag = 0
-    for name in re.findall(r"^\s*MARKER_TAG\s*=\s*(\S+)", text, re.MULTILINE):
-        tag = int(name) if re.fullmatch(r"[-+]?\d+", name) else tag + 1
-        names[tag] = name
-    return names
 
 
 def _reason(error: BaseException) -> str:

@@ -1,6 +1,6 @@
 """Reader of UGRID netCDF meshes: two-dimensional topology, its node and face data, its boundary.
 
-Grammar [UGRID conventions 1.0]: a variable with  cf_role = "mesh_topology"  and  topology_dimension = 2  whose
+Grammar [UGRID conventions 1.0]: a variable with cf_role = "mesh_topology" and topology_dimension = 2, whose
 attributes name others:
 
     node_coordinates              two variables, x (longitude) and y (latitude), in either order; a third is z
@@ -39,7 +39,7 @@ def read_ugrid(path: Path) -> RawMesh:
         return _raw_mesh(variables)
     except (BsgplanError, MemoryError):
         raise
-    except Exception as error:  # noqa: BLE001 - a damaged file raises anything while its values are read
+    except Exception as error:  # a damaged file raises anything while its values are read
         raise unreadable(error) from None
     finally:
         close()
@@ -130,7 +130,7 @@ def _corners(topology: Variable, variable: Variable, n_points: int) -> tuple[Int
         raise MeshReadError(f"{variable.name} has {variable.shape[1 - axis]} corners a face; repair the file")
     values = variable.values()
     values = values.T if axis else values
-    index, is_corner = _indices(variable, values, n_points)
+    index, is_corner = _indices(variable, values)
     notes = []
     if "start_index" not in variable.attributes and is_corner.any():
         smallest, largest = index[is_corner].min(), index[is_corner].max()
@@ -140,7 +140,7 @@ def _corners(topology: Variable, variable: Variable, n_points: int) -> tuple[Int
     return np.where(is_corner, index, -1), axis, notes
 
 
-def _indices(variable: Variable, values: Any, n_points: int) -> tuple[Ints, Bools]:
+def _indices(variable: Variable, values: Any) -> tuple[Ints, Bools]:
     """Return node indices from 0, and where there is one."""
     start = int(variable.number("start_index", 0))
     fill = variable.number("_FillValue", np.nan)
@@ -193,7 +193,7 @@ def _boundaries(variables: Variables, topology: Variable, n_points: int) -> tupl
     variable = variables[name]
     if len(variable.shape) != 2 or variable.shape[1] != 2:
         raise MeshReadError(f"{name} has shape {variable.shape}, not two nodes a segment; repair the file")
-    ends, is_node = _indices(variable, variable.values(), n_points)
+    ends, is_node = _indices(variable, variable.values())
     check_corners(np.where(is_node, ends, -1), n_points, "boundary segment")
     kinds = [
         v
@@ -205,7 +205,8 @@ def _boundaries(variables: Variables, topology: Variable, n_points: int) -> tupl
     values = kinds[0].values().astype(np.int64)
     flags = np.ravel(kinds[0].attributes["flag_values"])
     flags = np.array(str(flags[0]).split() if flags.dtype.kind in "SU" else flags, dtype=np.float64)
-    meanings = dict(zip(flags.astype(np.int64).tolist(), kinds[0].text("flag_meanings").split(), strict=False))
+    words = kinds[0].text("flag_meanings").split()
+    meanings = dict(zip(flags.astype(np.int64).tolist(), words, strict=False))
     return tuple(
         Boundary("named", np.unique(ends[values == value]), value, meanings.get(value, ""))
         for value in np.unique(values).tolist()

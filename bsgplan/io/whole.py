@@ -11,6 +11,7 @@ import numpy as np
 
 from ..arrays import Floats, Ints
 from ..errors import OutputError
+from .boundary import Boundary
 from .file import MeshFile
 
 log = logging.getLogger("bsgplan")
@@ -31,6 +32,8 @@ class WholeMesh:
     """(n_quads, 4)."""
     point_data: dict[str, Floats]
     """Values at all points by name, (n, ...)."""
+    boundaries: tuple[Boundary, ...]
+    """The boundaries, their nodes indices into `points`."""
 
     @property
     def spatial_points(self) -> Floats:
@@ -59,7 +62,8 @@ def whole_mesh(mesh_file: MeshFile) -> WholeMesh:
         data = {n: np.concatenate([v, mesh_file.quad_point_data[n][is_own]]) for n, v in data.items()}
     if mesh_file.projection is not None:
         points = mesh_file.projection.to_degrees(points)
-    return WholeMesh(points, mesh.triangles, quads, data)
+    boundaries = mesh_file.all_boundaries if len(quads) else mesh_file.boundaries
+    return WholeMesh(points, mesh.triangles, quads, data, boundaries)
 
 
 def warn_of_losses(

@@ -17,7 +17,7 @@ from bsgplan.io import read
 from bsgplan.result import mesh_document
 
 FOLDER = SHARED / "meshes"
-NOT_READ_YET = (".2dm", ".node", ".ele", ".nc")
+NOT_READ_YET = (".2dm", ".node", ".ele")
 NOT_READ_NAMES = ("jigsaw_piece.msh",)
 
 
@@ -119,11 +119,6 @@ def test_the_four_malformed_files_name_their_line(meshes):
     for path in sorted((meshes / "malformed_fort14").iterdir()):
         with pytest.raises(BsgplanError, match=r"\.14: line \d+: .*;"):
             read(path)
-
-
-def test_several_zones_are_refused_not_mixed(meshes):
-    with pytest.raises(BsgplanError, match="4 zones"):
-        read(meshes / "multizone_cht_3cyl_ffd.su2")
 
 
 def test_coincident_points_are_told_and_not_merged(meshes):

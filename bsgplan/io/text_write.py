@@ -1,0 +1,22 @@
+"""Tables of numbers as text, a bounded number of lines at a time; floats to the last bit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import chain
+
+from ..arrays import Floats, Ints
+
+LINES = 20_000
+"""Lines made at a time."""
+
+
+def table_lines(line: str, *columns: Floats | Ints) -> Iterator[str]:
+    r"""Yield text with one line a row; `line` has a %d or %r for each column, in their order.
+
+    >>> "".join(table_lines("3 %d %d\n", np.array([0, 1]), np.array([7, 8])))
+    '3 0 7\n3 1 8\n'
+    """
+    for start in range(0, len(columns[0]) if columns else 0, LINES):
+        parts = [column[start : start + LINES].tolist() for column in columns]
+        yield line * len(parts[0]) % tuple(chain.from_iterable(zip(*parts, strict=True)))
