@@ -174,7 +174,11 @@ def test_mfem_reads_what_is_written(small, tmp_path):
     assert sorted(mesh.GetBdrAttribute(k) for k in range(6)) == [1, 1, 2, 3, 3, 3]
     again = read(path)
     assert np.array_equal(again.mesh.triangles, found.mesh.triangles)
-    assert [(b.name, b.code) for b in again.all_boundaries] == [("wet_wall", 1), ("walls", 2), ("unmarked", 3)]
+    assert [(b.name, b.code) for b in again.all_boundaries] == [
+        ("wet_wall", 1),
+        ("walls", 2),
+        ("unmarked", 3),
+    ]
 
 
 @given(mesh=random_meshes())
@@ -197,5 +201,7 @@ def test_mfem_solves_on_a_real_coast(meshes, tmp_path):
     write_mfem(found, tmp_path / "coast.mesh")
     mesh = mfem.Mesh(str(tmp_path / "coast.mesh"), 1, 0)
     assert mesh.GetNE() == 1696
-    assert sum(mesh.GetElementVolume(k) for k in range(mesh.GetNE())) == pytest.approx(found.mesh.area, rel=1e-12)
+    assert sum(mesh.GetElementVolume(k) for k in range(mesh.GetNE())) == pytest.approx(
+        found.mesh.area, rel=1e-12
+    )
     assert mesh.GetNBE() == found.mesh.topology.is_boundary_edge.sum()

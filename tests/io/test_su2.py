@@ -144,7 +144,11 @@ def test_a_surface_in_space_and_the_skin_of_a_volume(small):
         ("NPOIN= 6 6", "NPOIN= 1000000000000", "line 14: a point has 'NMARK='"),
         ("NPOIN= 6 6", "NPOIN= 5", "line 13: .* after the last line that NPOIN counts"),
         ("NELEM= 3", "NELEM= 2", "line 6: .* after the last line that NELEM counts"),
-        ("MARKER_ELEMS= 1", "MARKER_ELEMS= 9999999999999", "the file ends after 1 of 9999999999999 marker '7'"),
+        (
+            "MARKER_ELEMS= 1",
+            "MARKER_ELEMS= 9999999999999",
+            "the file ends after 1 of 9999999999999 marker '7'",
+        ),
         ("NELEM= 3", "NELEM= -3", "line 3: NELEM= '-3' is no count"),
         ("NELEM= 3", "NELEM= three", "line 3: NELEM= 'three' is no count"),
         ("NDIME= 2", "NDIME= 4", "line 2: NDIME= 4 is not 2 or 3"),
@@ -200,9 +204,7 @@ def again_nodes(mesh_file: MeshFile, boundary: Boundary) -> list[list[float]]:
 def test_random_meshes_survive_to_the_last_bit(tmp_path, mesh):
     rim = np.flatnonzero(mesh.topology.is_boundary)
     boundary = Boundary("named", rim, 3, "rim")
-    written = MeshFile(
-        "x", "test", mesh, np.empty((0, 4), int), np.empty((0, 2)), boundaries=(boundary,)
-    )
+    written = MeshFile("x", "test", mesh, np.empty((0, 4), int), np.empty((0, 2)), boundaries=(boundary,))
     write_su2(written, tmp_path / "random.su2")
     found = read(tmp_path / "random.su2")
     assert np.array_equal(found.mesh.points, mesh.points)
