@@ -14,6 +14,7 @@ LINES = 20_000
 def table_lines(line: str, *columns: Floats | Ints) -> Iterator[str]:
     r"""Yield text with one line a row; `line` has a %d or %r for each column, in their order.
 
+    >>> import numpy as np
     >>> "".join(table_lines("3 %d %d\n", np.array([0, 1]), np.array([7, 8])))
     '3 0 7\n3 1 8\n'
     """

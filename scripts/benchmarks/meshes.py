@@ -47,7 +47,7 @@ def mirrored(tile: Mesh, columns: int, rows: int) -> Mesh:
     for k in range(columns * rows):
         column, row = k % columns, k // columns
         turned = np.column_stack([_mirror(unit[:, 0], column), _mirror(unit[:, 1], row)])
-        points.append(turned + (column, row))
+        points.append(turned + np.array([column, row]))
         triangles.append(tile.triangles + k * tile.n_points)
     joined, index = _joined(np.concatenate(points), np.concatenate(triangles))
     size = (high - low) * joined
