@@ -4,8 +4,8 @@
     python scripts/fuzz.py                       # every reader of ours, a minute each
     python scripts/fuzz.py su2 mfem --seconds 300
 
-Each reader runs in a process of its own with 2 GB of memory at most, starts from tests/seeds.py and may raise only
-BsgplanError. What breaks it stands afterwards in the folder --keep (fuzz-findings), one file a finding.
+Each reader runs in a process of its own with 2 GB of memory at most, starts from tests/seeds.py and may raise
+only BsgplanError. What breaks it stands afterwards in the folder --keep (fuzz-findings), one file a finding.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ def main() -> int:
     parser.add_argument("--only", help=argparse.SUPPRESS)
     options, rest = parser.parse_known_args()
     if options.only:
-        fuzz(options.only, rest)
+        fuzz(options.only, [*options.format, *rest])
         return 0
     unknown = set(options.format) - set(names)
     if unknown:
@@ -55,9 +55,10 @@ def survives(name: str, seconds: int, keep: Path) -> bool:
             for k, file in enumerate(names):
                 which = bytes([k]) if len(names) > 1 else b""
                 (Path(corpus) / f"{number}-{file}").write_bytes(which + seed.files[file])
-        command = [sys.executable, __file__, "--only", name, f"-max_total_time={seconds}", "-max_len=4096"]
-        limits = ["-timeout=20", "-rss_limit_mb=2048", f"-artifact_prefix={keep}/{name}-", "-print_final_stats=1"]
-        done = subprocess.run([*command, *limits, corpus], capture_output=True, text=True, check=False)
+        command = [sys.executable, __file__, "--only", name, corpus, f"-max_total_time={seconds}"]
+        command += ["-max_len=4096", "-timeout=20", "-rss_limit_mb=2048"]
+        command += [f"-artifact_prefix={keep}/{name}-", "-print_final_stats=1"]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
     told = [line for line in done.stderr.splitlines() if "stat::number_of_executed_units" in line]
     print(f"{name}: {told[-1].split()[-1] if told else '?'} files, exit code {done.returncode}")
     if done.returncode:

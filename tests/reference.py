@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import struct
 from collections import defaultdict
 from collections.abc import Sequence
 
@@ -167,3 +168,46 @@ def contour_elements(
         if len(cuts) == 2:
             length += math.dist(*cuts)
     return length / math.exp(level)
+
+
+SELAFIN_POINTS = [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (0.0, 1.0)]
+SELAFIN_TRIANGLES = [(1, 2, 3), (1, 3, 4)]
+
+
+def selafin(
+    *,
+    double=False,
+    order=">",
+    date=False,
+    origin=(0, 0),
+    frames=2,
+    points=SELAFIN_POINTS,
+    corners=3,
+    planes=0,
+):
+    """Return a file as the TELEMAC manual lays it out, one struct at a time."""
+    real, n = ("d" if double else "f"), len(points)
+
+    def record(content: bytes) -> bytes:
+        return struct.pack(order + "i", len(content)) + content + struct.pack(order + "i", len(content))
+
+    def reals(values) -> bytes:
+        return record(struct.pack(f"{order}{len(values)}{real}", *values))
+
+    def integers(*values: int) -> bytes:
+        return record(struct.pack(f"{order}{len(values)}i", *values))
+
+    title = b"a basin".ljust(72) + (b"SERAFIND" if double else b"SERAFIN ")
+    parts = [record(title), integers(2, 0)]
+    parts += [record(b"BOTTOM".ljust(16) + b"M".ljust(16)), record(b"WATER DEPTH".ljust(16) + b"M".ljust(16))]
+    parts.append(integers(1, 0, *origin, 0, 0, planes, 0, 0, int(date)))
+    if date:
+        parts.append(integers(2020, 1, 2, 3, 4, 5))
+    parts += [
+        integers(len(SELAFIN_TRIANGLES), n, corners, 1),
+        integers(*[c for t in SELAFIN_TRIANGLES for c in t]),
+    ]
+    parts += [integers(1, 2, 3, 4), reals([x for x, _ in points]), reals([y for _, y in points])]
+    for frame in range(frames):
+        parts += [reals([60.0 * frame]), reals([-1.5] * n), reals([frame + 0.25 * k for k in range(n)])]
+    return b"".join(parts)

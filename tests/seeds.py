@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 from hypothesis import strategies as st
+from reference import selafin
 
 from bsgplan.errors import BsgplanError
 from bsgplan.io import Boundary, MeshFile
@@ -21,22 +22,30 @@ from bsgplan.mesh import clean
 OWN = tuple(found for found in FORMATS if found.reader and not found.reader.startswith("meshio."))
 """The formats with a reader of ours."""
 
-BY_HAND = {
+BY_HAND: dict[str, list[str | bytes]] = {
     "su2": [
-        "NZONE= 2\nIZONE= 1\nNDIME= 2\nNELEM= 1\n5 0 1 2 0\nNPOIN= 3\n0 0 0\n1 0 1\n0 1 2\nNMARK= 1\nMARKER_TAG= a\n"
-        "MARKER_ELEMS= 1\n3 0 1\nIZONE= 2\nNDIME= 2\nNPOIN= 3\n1 0\n2 0\n2 1\nNELEM= 1\n5 2 1 0\nNMARK= 0\n",
-        "% space\nNDIME= 3\nNELEM= 1\n10 0 1 2 3\nNPOIN= 4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\nNMARK= 1\n"
-        "MARKER_TAG= b\nMARKER_ELEMS= 2\nSEND_RECV= 1\n5 0 2 1\n5 0 1 3\n",
+        """NZONE= 2\nIZONE= 1\nNDIME= 2\nNELEM= 1\n5 0 1 2 0\nNPOIN= 3\n0 0 0\n1 0 1\n0 1 2
+NMARK= 1\nMARKER_TAG= a\nMARKER_ELEMS= 1\n3 0 1
+IZONE= 2\nNDIME= 2\nNPOIN= 3\n1 0\n2 0\n2 1\nNELEM= 1\n5 2 1 0\nNMARK= 0
+""",
+        """% space\nNDIME= 3\nNELEM= 1\n10 0 1 2 3\nNPOIN= 4\n0 0 0\n1 0 0\n0 1 0\n0 0 1
+NMARK= 1\nMARKER_TAG= b\nMARKER_ELEMS= 2\nSEND_RECV= 1\n5 0 2 1\n5 0 1 3
+""",
     ],
     "mfem": [
-        "MFEM mesh v1.0\n\n# comment\ndimension\n2\n\nelements\n2\n1 2 0 1 2\n2 2 0 2 3\n\nboundary\n1\n1 1 0 1\n\n"
-        "vertices\n4\n\nnodes\nFiniteElementSpace\nFiniteElementCollection: H1_2D_P1\nVDim: 2\nOrdering: 1\n\n"
-        "0 0\n1 0\n1 1\n0 1\n",
+        """MFEM mesh v1.0\n\n# comment\ndimension\n2\n\nelements\n2\n1 2 0 1 2\n2 2 0 2 3
+boundary\n1\n1 1 0 1\n\nvertices\n4\n
+nodes\nFiniteElementSpace\nFiniteElementCollection: H1_2D_P1\nVDim: 2\nOrdering: 1\n
+0 0\n1 0\n1 1\n0 1
+""",
     ],
     "fort.14": [
-        "a weir\n2 4\n1 0 0 1\n2 1 0 1d0\n3 1 1 1 ! c\n4 0 1 1\n1 3 1 2 3\n2 3 1 3 4\n0\n0\n1\n2\n1 24\n4 1 0.2 1 1\n",
+        """a weir\n2 4\n1 0 0 1\n2 1 0 1d0\n3 1 1 1 ! c\n4 0 1 1\n1 3 1 2 3\n2 3 1 3 4
+0\n0\n1\n2\n1 24\n4 1 0.2 1 1
+""",
     ],
-}  # fmt: skip
+    "selafin": [selafin(order="<", date=True)],
+}
 """Further files with what the writers do not write."""
 
 WORDS = (b"", b"-1", b"0", b"1", b"3", b"2.5", b"nan", b"inf", b"1e300", b"1e999", b"x", b"1000000000000",
@@ -103,7 +112,10 @@ def seeds() -> list[Seed]:
                     continue  # no place for quads
                 files = {path.name: path.read_bytes() for path in Path(folder).iterdir()}
                 found.append(Seed(own, files, f"seed{suffix}"))
-        found += [Seed(own, {f"seed{suffix}": t.encode()}, f"seed{suffix}") for t in BY_HAND.get(own.name, ())]
+        name = f"seed{suffix}"
+        for by_hand in BY_HAND.get(own.name, ()):
+            content = by_hand if isinstance(by_hand, bytes) else by_hand.encode()
+            found.append(Seed(own, {name: content}, name))
     return found
 
 

@@ -5,6 +5,7 @@ Sizes are checked against the file before anything is read: a few bytes may clai
 
 from __future__ import annotations
 
+import io
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -72,13 +73,26 @@ def unreadable(error: Exception) -> MeshReadError:
     return MeshReadError(f"not readable as netCDF ({reason}); fetch the file again")
 
 
+class BoundedFile(io.FileIO):
+    """A file that never makes room for more bytes than it has, whatever a header asks for."""
+
+    def __init__(self, path: Path, size: int) -> None:
+        super().__init__(path)
+        self.size = size
+
+    def read(self, n: int | None = -1, /) -> bytes | Any:
+        """Return the next n bytes, or those that are left."""
+        left = max(self.size - self.tell(), 0)
+        return super().read(left if n is None or n < 0 else min(n, left))
+
+
 def _classic(path: Path) -> tuple[dict[str, Variable], Callable[[], object]]:
     from scipy.io import netcdf_file
 
     size = path.stat().st_size
-    with warnings.catch_warnings():
+    with warnings.catch_warnings(), BoundedFile(path, size) as stream:
         warnings.simplefilter("ignore")
-        found = netcdf_file(path, mmap=False)
+        found = netcdf_file(stream, mmap=False)
     variables = {}
     for name, variable in found.variables.items():
         shape = tuple(int(n) for n in variable.shape)

@@ -10,7 +10,7 @@ import tracemalloc
 import numpy as np
 import pytest
 from conftest import SHARED
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from predicates import assert_is_mesh_file
 from seeds import INTEGERS, OWN, Seed, damaged, is_text, seeds
@@ -21,7 +21,7 @@ from bsgplan.io import read
 
 SEEDS = seeds()
 MOST_BYTES = 48 << 20
-"""Memory that reading a damaged file of a few kilobytes may take: buffers and temporaries, never the header's count."""
+"""Memory that reading a damaged file of a few kilobytes may take: buffers, never what a header claims."""
 MOST_SECONDS = 5.0
 """CPU that it may take, many times what it does take."""
 FOLDER = SHARED / "meshes"
@@ -33,19 +33,20 @@ FILES = [p for p in sorted(FOLDER.rglob("*")) if p.is_file() and p.parent.name n
 def read_or_refuse(seed: Seed, folder, damaged_name: str, content: bytes) -> bool:
     """Read a damaged file: a valid mesh, or one line that is an error of ours; return whether it was read."""
     path = seed.written(folder, damaged_name, content)
-    found = None
+    found = message = None
     tracemalloc.start()
     start = time.process_time()
     try:
         found = read(path)
     except BsgplanError as error:
-        assert re.match(r"\S*seed.*: .", str(error))
-        assert "\n" not in str(error)
+        message = str(error)
     seconds, peak = time.process_time() - start, tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
     assert seconds < MOST_SECONDS
     assert peak < MOST_BYTES
-    if found is not None:
+    if found is None:
+        assert re.fullmatch(r"\S*seed[^:]*: .+", message)  # one line: a dot is no line's end
+    else:
         assert_is_mesh_file(found)
         assert np.isfinite(found.mesh.points).all()
     return found is not None
@@ -61,7 +62,6 @@ def test_every_reader_of_ours_has_a_seed_that_it_reads(tmp_path):
 
 @pytest.mark.parametrize("seed", SEEDS, ids=repr)
 @given(data=st.data())
-@settings(max_examples=150)
 def test_a_damaged_file_is_read_as_a_mesh_or_refused_in_one_line(tmp_path, seed, data):
     name = data.draw(st.sampled_from(sorted(seed.files)))
     read_or_refuse(seed, tmp_path, name, data.draw(damaged(seed.files[name])))
@@ -70,7 +70,7 @@ def test_a_damaged_file_is_read_as_a_mesh_or_refused_in_one_line(tmp_path, seed,
 @pytest.mark.parametrize("seed", SEEDS, ids=repr)
 def test_a_file_cut_off_anywhere_is_read_or_refused(tmp_path, seed):
     for name, content in seed.files.items():
-        for stop in range(0, len(content), max(len(content) // 150, 1)):
+        for stop in range(0, len(content), max(len(content) // 60, 1)):
             read_or_refuse(seed, tmp_path, name, content[:stop])
 
 
@@ -80,14 +80,14 @@ def test_a_number_of_any_size_anywhere_takes_no_memory(tmp_path, seed):
     for name, content in seed.files.items():
         if is_text(content):
             words = list(re.finditer(rb"\S+", content))
-            step = max(len(words) // 150, 1)
+            step = max(len(words) // 60, 1)
             cases = [content[: w.start()] + b"1000000000000" + content[w.end() :] for w in words[::step]]
             cases += [content[: w.start()] + b"-7" + content[w.end() :] for w in words[::step]]
         else:
             big = INTEGERS[10:12]
             cases = [
                 content[:start] + new + content[start + 4 :]
-                for start in range(0, min(len(content), 1000), 4)
+                for start in range(0, len(content), max(len(content) // 400 * 4, 4))
                 for new in big
             ]
         for case in cases:
@@ -104,7 +104,7 @@ def test_garbage_after_any_signature_is_refused(tmp_path, own, content):
 
 @pytest.mark.parametrize("path", FILES, ids=[str(p.relative_to(FOLDER)) for p in FILES])
 def test_every_shared_file_is_planned_or_refused_in_one_line(path, capsys):
-    """Exit code 3 where the file is no mesh, 1 where it is one but no plan meets the request; never a traceback."""
+    """Exit code 3 where the file is no mesh, 1 where it is one but no plan meets the request."""
     try:
         read(path)
         allowed = {0, 1}
