@@ -61,6 +61,7 @@ TEXTS: dict[str, tuple[str, ...]] = {
     "too-few-blocks.txt": ("estimate", case("shoreline"), "--blocks", "5"),
     "no-square.txt": ("estimate", case("square"), "--tris-per-block", "20"),
     "no-array.txt": ("estimate", case("plate"), "--size", "depth"),
+    "uncovered.txt": ("estimate", case("rectangle"), "--size-file", case("square")),
     "size.txt": ("estimate", case("plate"), "--size", "size"),
 }
 """File in docs/examples/ and the command whose output it holds."""

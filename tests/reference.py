@@ -211,3 +211,13 @@ def selafin(
     for frame in range(frames):
         parts += [reals([60.0 * frame]), reals([-1.5] * n), reals([frame + 0.25 * k for k in range(n)])]
     return b"".join(parts)
+
+
+def holds(triangle: Sequence[Sequence[float]], point: Sequence[float]) -> bool:
+    """Return True where a triangle of the plane, (3, 2), holds a point, by the signs of three areas."""
+    a, b, c = triangle
+    areas = [
+        (v[0] - u[0]) * (point[1] - u[1]) - (v[1] - u[1]) * (point[0] - u[0])
+        for u, v in ((a, b), (b, c), (c, a))
+    ]
+    return all(area >= 0 for area in areas) or all(area <= 0 for area in areas)

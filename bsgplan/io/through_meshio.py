@@ -94,20 +94,17 @@ def _converted(found: Any, notes: Iterable[str]) -> RawMesh:
         if n_corners != 3 and len(block.data):
             name = "quad" if n_corners == 4 else block.type
             ignored[name] = ignored.get(name, 0) + len(block.data)
-    cell_data = {
-        name: _floats(np.concatenate([np.asarray(v) for v, n in zip(values, corners, strict=True) if n == 3]))
-        for name, values in found.cell_data.items()
-        if 3 in corners and name not in HIDDEN_ARRAYS
-    }
     point_data = {name: _floats(v) for name, v in found.point_data.items() if name not in HIDDEN_ARRAYS}
     return RawMesh(
         points=points,
         triangles=_cells(found, corners, 3),
         quads=_cells(found, corners, 4),
         point_data={name: values for name, values in point_data.items() if values is not None},
-        cell_data={name: values for name, values in cell_data.items() if values is not None},
+        cell_data=_cell_data(found, corners, 3),
+        quad_data=_cell_data(found, corners, 4),
         boundaries=_named_lines(found),
         ignored=ignored,
+        midside=_midside(found, corners),
         notes=tuple(notes),
     )
 
@@ -122,6 +119,24 @@ def _cells(found: Any, corners: list[int], n_corners: int) -> Ints:
         np.asarray(b.data)[:, :n_corners] for b, n in zip(found.cells, corners, strict=True) if n == n_corners
     ]
     return np.concatenate([np.empty((0, n_corners), dtype=np.int64), *blocks]).astype(np.int64)
+
+
+def _cell_data(found: Any, corners: list[int], n_corners: int) -> dict[str, Floats]:
+    """Return the values at triangles or quads by name, in the order of `_cells`."""
+    result = {}
+    for name, values in found.cell_data.items():
+        parts = [np.asarray(v) for v, n in zip(values, corners, strict=True) if n == n_corners]
+        if parts and name not in HIDDEN_ARRAYS and (array := _floats(np.concatenate(parts))) is not None:
+            result[name] = array
+    return result
+
+
+def _midside(found: Any, corners: list[int]) -> Ints:
+    """Return the points that triangles and quads of higher order have beside their corners, each once."""
+    beside = [
+        np.asarray(b.data)[:, n:].ravel() for b, n in zip(found.cells, corners, strict=True) if n in (3, 4)
+    ]
+    return np.unique(np.concatenate([np.empty(0, dtype=np.int64), *beside])).astype(np.int64)
 
 
 def _floats(values: Any) -> Floats | None:
