@@ -44,6 +44,11 @@ nodes\nFiniteElementSpace\nFiniteElementCollection: H1_2D_P1\nVDim: 2\nOrdering:
 0\n0\n1\n2\n1 24\n4 1 0.2 1 1
 """,
     ],
+    "gmsh1": [
+        """$NOD\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n7 0 1 0\n$ENDNOD
+$ELM\n4\n1 1 5 6 2 1 2\n2 2 1 1 3 1 2 3\n3 2 1 1 3 1 3 7\n9 15 1 1 1 7\n$ENDELM
+""",
+    ],
     "selafin": [selafin(order="<", date=True)],
 }
 """Further files with what the writers do not write."""

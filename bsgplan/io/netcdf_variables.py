@@ -35,8 +35,7 @@ class Variable:
 
     def text(self, name: str) -> str:
         """Return an attribute as text, empty where it has none."""
-        value = self.attributes.get(name, "")
-        return value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)
+        return _text(self.attributes.get(name, ""))
 
     def number(self, name: str, default: float) -> float:
         """Return an attribute as a number."""
@@ -53,8 +52,19 @@ class Variable:
         return array
 
 
-def read_variables(path: Path) -> tuple[dict[str, Variable], Callable[[], object]]:
-    """Return the variables of a file by name, and the function that closes it."""
+@dataclass(frozen=True, eq=False)
+class Contents:
+    """The variables of an open file by name."""
+
+    variables: dict[str, Variable]
+    title: str
+    """Its global attribute `title`, empty where it has none."""
+    close: Callable[[], object]
+    """Function that closes the file."""
+
+
+def open_variables(path: Path) -> Contents:
+    """Return the variables of a file, whose values are read when they are asked for."""
     with path.open("rb") as stream:
         signature = stream.read(4)
     try:
@@ -65,6 +75,10 @@ def read_variables(path: Path) -> tuple[dict[str, Variable], Callable[[], object
         raise
     except Exception as error:  # readers raise anything on a damaged file
         raise unreadable(error) from None
+
+
+def _text(value: Any) -> str:
+    return value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)
 
 
 def unreadable(error: Exception) -> MeshReadError:
@@ -86,7 +100,7 @@ class BoundedFile(io.FileIO):
         return super().read(left if n is None or n < 0 else min(n, left))
 
 
-def _classic(path: Path) -> tuple[dict[str, Variable], Callable[[], object]]:
+def _classic(path: Path) -> Contents:
     from scipy.io import netcdf_file
 
     size = path.stat().st_size
@@ -104,14 +118,14 @@ def _classic(path: Path) -> tuple[dict[str, Variable], Callable[[], object]]:
             _copying(variable),
         )
         _check_size(name, shape, variable.itemsize(), size)
-    return variables, found.close
+    return Contents(variables, _text(getattr(found, "title", "")), found.close)
 
 
 def _copying(variable: Any) -> Callable[[Any], Any]:
     return lambda index: variable[index].copy()
 
 
-def _through_netcdf4(path: Path) -> tuple[dict[str, Variable], Callable[[], object]]:
+def _through_netcdf4(path: Path) -> Contents:
     try:
         import netCDF4
     except ModuleNotFoundError:
@@ -137,7 +151,7 @@ def _through_netcdf4(path: Path) -> tuple[dict[str, Variable], Callable[[], obje
             {key: variable.getncattr(key) for key in variable.ncattrs()},
             variable.__getitem__,
         )
-    return variables, found.close
+    return Contents(variables, _text(getattr(found, "title", "")), found.close)
 
 
 def _check_size(name: str, shape: tuple[int, ...], itemsize: int, file_size: int) -> None:

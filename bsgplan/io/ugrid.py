@@ -17,6 +17,7 @@ package, netCDF-4 needs the extra `netcdf`.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -27,22 +28,22 @@ from ..errors import BsgplanError, MeshReadError
 from .boundary import Boundary
 from .cell_rows import check_corners
 from .file import RawMesh
-from .netcdf_variables import Variable, read_variables, unreadable
+from .netcdf_variables import Variable, open_variables, unreadable
 
 Variables = dict[str, Variable]
 
 
 def read_ugrid(path: Path) -> RawMesh:
     """Return nodes, faces, data and boundary of the first two-dimensional topology of a UGRID file."""
-    variables, close = read_variables(path)
+    contents = open_variables(path)
     try:
-        return _raw_mesh(variables)
+        return replace(_raw_mesh(contents.variables), title=" ".join(contents.title.split()))
     except (BsgplanError, MemoryError):
         raise
     except Exception as error:  # a damaged file raises anything while its values are read
         raise unreadable(error) from None
     finally:
-        close()
+        contents.close()
 
 
 def _raw_mesh(variables: Variables) -> RawMesh:
@@ -71,7 +72,6 @@ def _raw_mesh(variables: Variables) -> RawMesh:
         boundaries=_boundaries(variables, topology, len(points)),
         ignored={kind: count for kind, count in ignored.items() if count},
         notes=tuple(notes),
-        title=topology.text("long_name"),
     )
 
 

@@ -193,7 +193,7 @@ def test_random_meshes_survive_to_the_last_bit(tmp_path, mesh):
     written = MeshFile(
         "x", "test", mesh, np.empty((0, 4), int), np.empty((0, 2)),
         point_data={"a b": np.arange(mesh.n_points) / 3}, cell_data={"node": mesh.areas},
-        boundaries=(Boundary("land", rim, 20),),
+        boundaries=(Boundary("land", rim, 20),), title="a coast",
     )  # fmt: skip
     write_ugrid(written, tmp_path / "random.nc")
     found = read(tmp_path / "random.nc")
@@ -201,6 +201,7 @@ def test_random_meshes_survive_to_the_last_bit(tmp_path, mesh):
     assert np.array_equal(found.mesh.triangles, mesh.triangles)
     assert np.array_equal(found.point_data["a_b"], np.arange(mesh.n_points) / 3)
     assert np.array_equal(found.cell_data["node"], mesh.areas)
+    assert found.title == "a coast"
     assert [(b.name, b.code, b.nodes.tolist()) for b in found.boundaries] == [("land_20", 20, rim.tolist())]
 
 
