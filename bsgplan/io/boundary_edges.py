@@ -1,7 +1,8 @@
 """Boundaries as edges: which edge of the rim belongs to which boundary, for formats that want segments.
 
-A boundary of a MeshFile is a list of points. An edge of the rim (in one cell only) belongs to the smallest
-boundary that has both its ends: so one edge between two long boundaries stays its own.
+An edge of the rim (in one cell only) belongs to the last boundary that lists it. Boundaries without edges are
+lists of points: there an edge belongs to the smallest that has both its ends, so one edge between two long
+boundaries stays its own.
 """
 
 from __future__ import annotations
@@ -66,14 +67,18 @@ def rim(triangles: Ints, quads: Ints, n_points: int) -> Ints:
     """
     halves = [np.stack([c, np.roll(c, -1, axis=1)], axis=2).reshape(-1, 2) for c in (triangles, quads)]
     edges = np.concatenate(halves)
-    key = edges.min(axis=1) * n_points + edges.max(axis=1)
-    _, first, count = np.unique(key, return_index=True, return_counts=True)
+    _, first, count = np.unique(_keys(edges, n_points), return_index=True, return_counts=True)
     return edges[np.sort(first[count == 1])]
 
 
 def _labels(edges: Ints, boundaries: Sequence[Boundary], n_points: int) -> Ints:
     """Return the smallest boundary that has both ends of each edge, (n_edges,); -1 where there is none."""
-    nodes = [b.nodes if b.partners is None else np.concatenate([b.nodes, b.partners]) for b in boundaries]
+    nodes = [
+        np.empty(0, dtype=np.int64) if b.edges is not None
+        else b.nodes if b.partners is None
+        else np.concatenate([b.nodes, b.partners])
+        for b in boundaries
+    ]  # fmt: skip
     sets = [np.unique(part) for part in nodes]
     sizes = np.array([len(part) for part in sets], dtype=np.int64)
     column = np.repeat(np.arange(len(sets)), sizes)
@@ -84,7 +89,16 @@ def _labels(edges: Ints, boundaries: Sequence[Boundary], n_points: int) -> Ints:
     edge, first = np.unique(common.row[order], return_index=True)
     label = np.full(len(edges), -1, dtype=np.int64)
     label[edge] = common.col[order][first]
+    keys = _keys(edges, n_points)
+    for k, boundary in enumerate(boundaries):
+        if boundary.edges is not None:
+            label[np.isin(keys, _keys(boundary.edges, n_points))] = k
     return label
+
+
+def _keys(edges: Ints, n_points: int) -> Ints:
+    """Return a number for each edge, (n_edges,), the same in both directions."""
+    return edges.min(axis=1) * n_points + edges.max(axis=1)
 
 
 def _word(boundary: Boundary) -> str:

@@ -41,6 +41,10 @@ class RawMesh:
     """Points that cells of higher order have beside their corners."""
     notes: tuple[str, ...] = ()
     title: str = ""
+    cell_names: dict[str, dict[int, str]] = field(default_factory=dict)
+    """Names of the values of a cell array, by array and value."""
+    is_counting: bool = True
+    """False where the points are not numbered one by one in the order of the file."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,6 +86,10 @@ class MeshFile:
     """Place in the file of each point, (n_points,), counted from 0."""
     n_file_points: int = 0
     """Points in the file, used or not."""
+    cell_names: dict[str, dict[int, str]] = field(default_factory=dict)
+    """Names of the values of a cell array (physical groups, materials), by array and value."""
+    is_renumbered: bool = False
+    """True where the points are not numbered as in the file: dropped ones, or numbers in another order."""
 
     def __repr__(self) -> str:
         return f"MeshFile({self.path!r}, {self.format}, {self.mesh!r})"
@@ -160,6 +168,8 @@ def assemble(path: str, format: str, raw: RawMesh, projection: Projection | None
         projection=projection,
         kept_points=frozen_ints(cleaned.kept_points),
         n_file_points=len(raw.points),
+        cell_names={name: dict(names) for name, names in raw.cell_names.items()},
+        is_renumbered=not raw.is_counting or len(cleaned.kept_points) < len(raw.points),
     )
 
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -52,6 +51,11 @@ class Format:
         """Write a mesh file, whole or not at all; raises OutputError."""
         if self.writer is None:
             raise ValueError(f"{self.name} is not written")
+        if self.writer.startswith("meshio."):
+            from .through_meshio_write import write_through_meshio
+
+            write_through_meshio(mesh_file, path, self.writer.split(":")[0].removeprefix("meshio."))
+            return
         write: Callable[[MeshFile, Path], None] = _resolved(self.writer)
         write(mesh_file, path)
 
@@ -61,10 +65,21 @@ def _resolved(import_path: str) -> Any:
     return getattr(import_module(module, __package__), function)
 
 
-_meshio = partial(Format, keeps="point and cell arrays")
+def _meshio(name: str, suffixes: tuple[str, ...], what: str, *, writes: bool = False, **more: str) -> Format:
+    writer = f"meshio.{name}:write" if writes else None
+    return Format(name, suffixes, what, f"meshio.{name}:read", writer, **more)
+
 
 FORMATS: tuple[Format, ...] = (
-    Format("gmsh", (".msh",), "Gmsh, MSH 2.2 and 4.x, ASCII and binary", "meshio.gmsh:read"),
+    Format(
+        "gmsh",
+        (".msh",),
+        "Gmsh, MSH 2.2 and 4.x, text and binary; written as 2.2 in text",
+        "meshio.gmsh:read",
+        ".gmsh_write:write_msh22",
+        keeps=(gmsh_keeps := "arrays of 1, 3 or 9 components; boundaries and regions with names"),
+    ),
+    Format("gmsh41", (), "Gmsh, MSH 4.1 in text", None, ".gmsh_write:write_msh41", keeps=gmsh_keeps),
     Format(
         "fort.14",
         (".14", ".grd", ".gr3", ".ll"),
@@ -72,6 +87,37 @@ FORMATS: tuple[Format, ...] = (
         ".fort14:read_fort14",
         ".fort14_write:write_fort14",
         keeps="title; point array depth; open and land boundaries",
+    ),
+    Format(
+        "2dm",
+        (".2dm",),
+        "SMS two-dimensional mesh, triangles and quads",
+        ".sms:read_2dm",
+        ".sms_write:write_2dm",
+        keeps="point array depth; cell array material with names; nodestrings",
+    ),
+    Format(
+        "triangle",
+        (".node", ".ele"),
+        "Triangle, points in .node and triangles in .ele",
+        ".triangle:read_triangle",
+        ".triangle:write_triangle",
+        keeps="scalar arrays without names; point array marker",
+    ),
+    Format(
+        "jigsaw",
+        (),
+        "JIGSAW .msh, mesh of the plane, in space or on an ellipsoid",
+        ".jigsaw:read_jigsaw",
+        ".jigsaw:write_jigsaw",
+        keeps="point arrays value, slope, power; regions and boundaries by number",
+    ),
+    Format(
+        "gmsh1",
+        (),
+        "Gmsh, MSH 1.0",
+        ".gmsh1:read_gmsh1",
+        keeps="boundaries and regions by number",
     ),
     Format(
         "su2",
@@ -106,30 +152,38 @@ FORMATS: tuple[Format, ...] = (
         extra="netCDF4",
         keeps="quads; point and cell arrays of one number; boundaries with their names",
     ),
-    _meshio("medit", (".mesh", ".meshb"), "Medit, INRIA (mmg, FreeFEM)", "meshio.medit:read"),
-    _meshio("vtk", (".vtk",), "VTK legacy, unstructured grid", "meshio.vtk:read"),
-    _meshio("vtu", (".vtu",), "VTK XML, unstructured grid", "meshio.vtu:read"),
-    _meshio("off", (".off",), "OFF, Object File Format", "meshio.off:read"),
-    _meshio("obj", (".obj",), "Wavefront OBJ", "meshio.obj:read"),
-    _meshio("stl", (".stl",), "STL, stereolithography", "meshio.stl:read"),
-    _meshio("ply", (".ply",), "PLY, Stanford polygons", "meshio.ply:read"),
-    _meshio("abaqus", (".inp",), "Abaqus input", "meshio.abaqus:read"),
-    _meshio("ansys", (), "Ansys Fluent .msh", "meshio.ansys:read"),
-    _meshio("avsucd", (".avs",), "AVS-UCD", "meshio.avsucd:read"),
-    _meshio("nastran", (".bdf", ".nas", ".fem"), "Nastran bulk data", "meshio.nastran:read"),
-    _meshio("tecplot", (".dat", ".tec"), "Tecplot ASCII", "meshio.tecplot:read"),
-    _meshio("netgen", (".vol",), "Netgen volume mesh", "meshio.netgen:read"),
-    _meshio("dolfin", (".xml",), "DOLFIN XML (FEniCS)", "meshio.dolfin:read"),
-    _meshio("xdmf", (".xdmf", ".xmf"), "XDMF 3", "meshio.xdmf:read"),
-    _meshio("mdpa", (".mdpa",), "Kratos", "meshio.mdpa:read"),
-    _meshio("permas", (".post",), "PERMAS", "meshio.permas:read"),
-    _meshio("flac3d", (".f3grid",), "FLAC3D", "meshio.flac3d:read"),
-    _meshio("wkt", (".wkt",), "Well-known text, TIN", "meshio.wkt:read"),
-    _meshio("ugrid", (".ugrid",), "AFLR3 UGRID", "meshio.ugrid:read"),
-    _meshio("med", (".med",), "Salome MED", "meshio.med:read", extra="h5py"),
-    _meshio("h5m", (".h5m",), "MOAB H5M", "meshio.h5m:read", extra="h5py"),
-    _meshio("cgns", (".cgns",), "CGNS", "meshio.cgns:read", extra="h5py"),
-    _meshio("exodus", (".e", ".exo", ".ex2"), "Exodus II", "meshio.exodus:read", extra="netCDF4"),
+    _meshio(
+        "medit",
+        (".mesh", ".meshb"),
+        "Medit, INRIA (mmg, FreeFEM)",
+        writes=True,
+        keeps="regions and boundaries by number",
+    ),
+    _meshio("vtk", (".vtk",), "VTK legacy, unstructured grid", writes=True, keeps="point and cell arrays"),
+    _meshio("vtu", (".vtu",), "VTK XML, unstructured grid", writes=True, keeps="point and cell arrays"),
+    _meshio("off", (".off",), "OFF, Object File Format", writes=True),
+    _meshio("obj", (".obj",), "Wavefront OBJ", writes=True),
+    _meshio("stl", (".stl",), "STL, stereolithography"),
+    _meshio("ply", (".ply",), "PLY, Stanford polygons", writes=True, keeps="scalar point arrays"),
+    _meshio("abaqus", (".inp",), "Abaqus input", writes=True),
+    _meshio("ansys", (), "Ansys Fluent .msh", writes=True),
+    _meshio("avsucd", (".avs",), "AVS-UCD", writes=True, keeps="point and cell arrays"),
+    _meshio("nastran", (".bdf", ".nas", ".fem"), "Nastran bulk data"),
+    _meshio("tecplot", (".dat", ".tec"), "Tecplot ASCII", writes=True, keeps="scalar point and cell arrays"),
+    _meshio("netgen", (".vol",), "Netgen volume mesh", writes=True, keeps="regions by number"),
+    _meshio("dolfin", (".xml",), "DOLFIN XML (FEniCS)", writes=True),
+    _meshio("xdmf", (".xdmf", ".xmf"), "XDMF 3", writes=True, keeps="point and cell arrays"),
+    _meshio("mdpa", (".mdpa",), "Kratos", writes=True),
+    _meshio("permas", (".post",), "PERMAS", writes=True),
+    _meshio("flac3d", (".f3grid",), "FLAC3D"),
+    _meshio("wkt", (".wkt",), "Well-known text, TIN"),
+    _meshio("ugrid", (".ugrid",), "AFLR3 UGRID"),
+    _meshio("med", (".med",), "Salome MED", extra="h5py"),
+    _meshio("h5m", (".h5m",), "MOAB H5M", extra="h5py"),
+    _meshio("cgns", (".cgns",), "CGNS", extra="h5py"),
+    _meshio(
+        "exodus", (".e", ".exo", ".ex2"), "Exodus II", writes=True, extra="netCDF4", keeps="point arrays"
+    ),
 )
 """Every format that is read or written, ours first."""
 

@@ -199,6 +199,6 @@ def _boundaries(lines: Ints, tags: Ints, names: dict[int, str]) -> tuple[Boundar
     found, starts = np.unique(tags[order], return_index=True)
     parts = np.split(lines[order], starts[1:])
     return tuple(
-        Boundary("named", np.unique(part), tag, names.get(tag, ""))
+        Boundary("named", np.unique(part), tag, names.get(tag, ""), edges=part)
         for tag, part in zip(found.tolist(), parts, strict=False)
     )

@@ -15,10 +15,6 @@ HEAD = 4096
 """Bytes looked at: every signature below stands in the first few lines."""
 
 OTHER_FORMATS = {
-    "gmsh1": ("Gmsh 1.0", "open it in Gmsh and save it as MSH 2.2 or 4.1"),
-    "jigsaw": ("JIGSAW", "save it as .vtk from JIGSAW (savevtk) and give that"),
-    "2dm": ("SMS 2dm", "export it as fort.14 (or .gr3) from SMS or QGIS and give that"),
-    "triangle": ("Triangle .node/.ele", "convert it to .off or .vtk and give that"),
     "polydata": ("VTK PolyData", "save it as an unstructured grid (.vtu) and give that"),
     "hdf5": ("HDF5", "convert it to .vtu with `meshio convert` and give that"),
 }
@@ -27,7 +23,7 @@ OTHER_FORMATS = {
 SIGNATURES: tuple[tuple[bytes, str], ...] = (
     (rb"\s*\$NOD\b", "gmsh1"),
     (rb"\s*\$(MeshFormat|Comments)\b", "gmsh"),
-    (rb"(\s*#[^\n]*\n)*\s*mshid\s*=", "jigsaw"),
+    (rb"(\s*#[^\n]*\n)*\s*(?i:mshid)\s*=", "jigsaw"),
     (rb"MFEM (NC |NURBS |INLINE )?mesh", "mfem"),
     (rb"(\s*#[^\n]*\n)*\s*MeshVersionFormatted\b", "medit"),
     (rb"MESH2D\b", "2dm"),
@@ -51,7 +47,7 @@ SPANNING = ("selafin", "vtu", "polydata", "dolfin", "xdmf")
 FORT14 = rb"[^\n]*\n[ \t]*\d+[ \t]+\d+\b[^\n]*\n[ \t]*\d+([ \t]+[-+]?[\d.]+([EeDd][-+]?\d+)?){3}"
 """A title, two counts, then a node: too weak a sign against a suffix that says otherwise."""
 
-SUFFIXES = {".2dm": "2dm", ".node": "triangle", ".ele": "triangle", ".vtp": "polydata"}
+SUFFIXES = {".vtp": "polydata"}
 """Suffixes of formats that are recognised only, beside those of the registry."""
 
 CONTAINERS = {"hdf5": ("med", "h5m", "cgns", "exodus", "netcdf"), "netcdf": ("exodus",)}

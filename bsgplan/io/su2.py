@@ -141,7 +141,9 @@ def _joined(zones: list[Zone]) -> RawMesh:
             zone_of.append(np.full(len(found.triangles), zone.number))
             if found is not zone.elements:
                 tag = int(name) if _is_small_number(name) else tag + 1
-                boundaries.append(Boundary("named", found.nodes + n_points, tag, name))
+                boundaries.append(
+                    Boundary("named", found.nodes + n_points, tag, name, edges=found.lines + n_points)
+                )
             marker_of.append(np.full(len(found.triangles), 0 if found is zone.elements else tag))
             for kind, count in (("quad", len(found.quads)), *found.others.items()):
                 ignored[kind] = ignored.get(kind, 0) + count

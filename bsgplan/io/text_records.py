@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 import warnings
+from collections.abc import Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import NamedTuple
@@ -73,9 +74,9 @@ class Rows(NamedTuple):
 class TextRecords:
     """A text file open for reading; a context manager. `line_number` is that of the last line handed out."""
 
-    def __init__(self, path: Path, *, comment: bytes) -> None:
+    def __init__(self, path: Path, *, comment: bytes, separator: bytes = b" ") -> None:
         self.stream = path.open("rb")
-        self.comment = comment
+        self.comment, self.separator = comment, separator
         self.line_number = 0
         self._text = b""
         self._position = 0
@@ -166,6 +167,8 @@ class TextRecords:
                 f"line {self.line_number + 1} has more than {BUFFER} bytes, no line of a mesh; check the file"
             )
         more = self.stream.read(BUFFER)
+        if self.separator != b" ":
+            more = more.replace(self.separator, b" ")
         self._text, self._position = rest + more, 0
         return bool(more)
 
@@ -221,3 +224,17 @@ def _joined(parts: list[Rows]) -> Rows:
         np.concatenate([*starts, offsets[-1:]]),
         np.concatenate([part.line_numbers for part in parts]),
     )
+
+
+def counts(line: bytes, line_number: int, names: Sequence[str]) -> list[int]:
+    """Return the whole numbers that a header line begins with; raise MeshReadError where they are missing."""
+    words = line.split()[: len(names)]
+    try:
+        found = [int(word) for word in words]
+    except ValueError:
+        found = []
+    if len(found) < len(names) or min(found) < 0:
+        raise MeshReadError(
+            f"line {line_number}: needs {', '.join(names)}, got {shown(line)}; repair the line"
+        )
+    return found

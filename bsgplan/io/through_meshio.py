@@ -22,7 +22,10 @@ CORNERS = (("triangle", 3), ("quad", 4), ("VTK_LAGRANGE_TRIANGLE", 3), ("VTK_LAG
 """Cell types, by how their name begins, that are taken by their first corners: higher orders too."""
 HIDDEN_ARRAYS = ("gmsh:dim_tags",)
 """Book-keeping of a reader, of no use as data."""
-PARTIAL_TAGS = "physical groups or data cover a part of the cells only; those arrays were left out"
+LINE_TAGS = ("gmsh:physical", "medit:ref")
+"""Arrays that hold the number of the boundary at line cells."""
+PARTIAL_TAGS = "physical groups cover a part of the cells only; gmsh:physical is 0 at the others"
+PARTIAL_DATA = "data cover a part of the points or cells only; those arrays were left out"
 
 
 def read_through_meshio(path: Path, file_format: str) -> RawMesh:
@@ -44,7 +47,7 @@ def read_through_meshio(path: Path, file_format: str) -> RawMesh:
             ) from None
         except (Exception, SystemExit) as error:  # readers raise anything, and exit
             raise MeshReadError(
-                f"not readable as {file_format} ({_reason(error)}); check or convert it"
+                f"not readable as {file_format} ({reason(error)}); check or convert it"
             ) from None
 
 
@@ -64,24 +67,35 @@ def _read_gmsh(path: Path) -> tuple[Any, tuple[str, ...]]:
     from meshio.gmsh import _gmsh41
     from meshio.gmsh.main import _read_header
 
+    notes: list[str] = []
+
+    def read_entities(*arguments: Any) -> Any:
+        physical_tags, bounding_entities = _gmsh41._read_entities(*arguments)
+        tags = [list(of_entity.values()) for of_entity in physical_tags]
+        if any(any(t) for t in tags) and not all(all(t) for t in tags):
+            notes.append(PARTIAL_TAGS)
+        tagged = tuple({e: t or [0] for e, t in of_entity.items()} for of_entity in physical_tags)
+        return tagged, bounding_entities
+
+    def mesh_without_partial_data(points: Any, cells: Any, **data: Any) -> Any:
+        for kind, items in (("point_data", points), ("cell_data", cells)):
+            whole = {name: values for name, values in data[kind].items() if len(values) == len(items)}
+            if len(whole) < len(data[kind]):
+                notes.append(PARTIAL_DATA)
+            data[kind] = whole
+        data["cell_sets"] = None
+        return meshio.Mesh(points, cells, **data)
+
+    own = {"_read_entities": read_entities, "Mesh": mesh_without_partial_data}
     reader = _gmsh41.read_buffer
-    lenient = types.FunctionType(reader.__code__, {**reader.__globals__, "Mesh": _mesh_without_partial_data})
+    lenient = types.FunctionType(reader.__code__, {**reader.__globals__, **own})
     with path.open("rb") as stream:
         while stream.readline().strip() != b"$MeshFormat":
             pass
         version, data_size, is_ascii = _read_header(stream)
         if not version.startswith("4"):
             raise MeshReadError("data cover a part of the points or cells only; save them for all of them")
-        return lenient(stream, is_ascii, data_size), (PARTIAL_TAGS,)
-
-
-def _mesh_without_partial_data(points: Any, cells: Any, **data: Any) -> Any:
-    import meshio
-
-    data["point_data"] = {n: v for n, v in data["point_data"].items() if len(v) == len(points)}
-    data["cell_data"] = {n: v for n, v in data["cell_data"].items() if len(v) == len(cells)}
-    data["cell_sets"] = None
-    return meshio.Mesh(points, cells, **data)
+        return lenient(stream, is_ascii, data_size), tuple(notes)
 
 
 def _converted(found: Any, notes: Iterable[str]) -> RawMesh:
@@ -106,6 +120,7 @@ def _converted(found: Any, notes: Iterable[str]) -> RawMesh:
         ignored=ignored,
         midside=_midside(found, corners),
         notes=tuple(notes),
+        cell_names={"gmsh:physical": names} if (names := _groups(found, 2)) else {},
     )
 
 
@@ -144,27 +159,35 @@ def _floats(values: Any) -> Floats | None:
     return array.astype(np.float64) if array.dtype.kind in "fiub" else None
 
 
-def _named_lines(found: Any) -> tuple[Boundary, ...]:
-    """Return one boundary for each tag of the line cells: its points, each once, sorted."""
-    groups = {
-        int(pair[0]): name for name, pair in found.field_data.items() if np.size(pair) == 2 and pair[1] == 1
+def _groups(found: Any, dimension: int) -> dict[int, str]:
+    """Return the names of the physical groups of one dimension by their tags."""
+    return {
+        int(pair[0]): name
+        for name, pair in found.field_data.items()
+        if np.size(pair) == 2 and pair[1] == dimension
     }
-    nodes_of: dict[int, list[Ints]] = {}
-    all_tags = found.cell_data.get("gmsh:physical") or []
+
+
+def _named_lines(found: Any) -> tuple[Boundary, ...]:
+    """Return one boundary for each tag of the line cells but 0, which means none."""
+    names = _groups(found, 1)
+    edges_of: dict[int, list[Ints]] = {}
+    all_tags: Any = next((found.cell_data[name] for name in LINE_TAGS if name in found.cell_data), [])
     for block, tags in zip(found.cells, all_tags, strict=False):
         if block.type.startswith("line"):
+            edges = np.asarray(block.data)[:, :2].astype(np.int64)
             for tag in np.unique(tags).tolist():
-                nodes_of.setdefault(int(tag), []).append(
-                    np.asarray(block.data)[np.asarray(tags) == tag, :2].ravel()
-                )
+                edges_of.setdefault(int(tag), []).append(edges[np.asarray(tags) == tag])
+    joined = {tag: np.concatenate(edges) for tag, edges in sorted(edges_of.items())}
     return tuple(
-        Boundary("named", np.unique(np.concatenate(nodes)).astype(np.int64), tag, groups.get(tag, ""))
-        for tag, nodes in sorted(nodes_of.items())
-        if (np.concatenate(nodes) < len(found.points)).all()
+        Boundary("named", np.unique(edges), tag, names.get(tag, ""), edges=edges)
+        for tag, edges in joined.items()
+        if (tag or tag in names) and (edges < len(found.points)).all()
     )
 
 
-def _reason(error: BaseException) -> str:
+def reason(error: BaseException) -> str:
+    """Return what an exception of meshio says in one short line, else its name."""
     text = " ".join(str(error).split())
     if isinstance(error, SystemExit) or not text:
         return type(error).__name__

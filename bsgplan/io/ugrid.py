@@ -201,13 +201,14 @@ def _boundaries(variables: Variables, topology: Variable, n_points: int) -> tupl
         if v.dimensions == variable.dimensions[:1] and "flag_values" in v.attributes
     ]
     if not kinds:
-        return (Boundary("named", np.unique(ends), None, name),)
+        return (Boundary("named", np.unique(ends), None, name, edges=ends),)
     values = kinds[0].values().astype(np.int64)
     flags = np.ravel(kinds[0].attributes["flag_values"])
     flags = np.array(str(flags[0]).split() if flags.dtype.kind in "SU" else flags, dtype=np.float64)
     words = kinds[0].text("flag_meanings").split()
     meanings = dict(zip(flags.astype(np.int64).tolist(), words, strict=False))
     return tuple(
-        Boundary("named", np.unique(ends[values == value]), value, meanings.get(value, ""))
+        Boundary("named", np.unique(edges), value, meanings.get(value, ""), edges=edges)
         for value in np.unique(values).tolist()
+        for edges in [ends[values == value]]
     )

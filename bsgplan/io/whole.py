@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import os
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -66,6 +66,33 @@ def whole_mesh(mesh_file: MeshFile) -> WholeMesh:
     return WholeMesh(points, mesh.triangles, quads, data, boundaries)
 
 
+REGION_ARRAYS = ("gmsh:physical", "material", "medit:ref", "attribute", "tag")
+"""What formats call the number of the region (material, physical group) that a cell belongs to."""
+
+
+@dataclass(frozen=True, eq=False)
+class CellRegions:
+    """The number of a region at each triangle, where a file has one."""
+
+    array: str | None
+    """Name of the cell array; None where no array holds such numbers."""
+    ids: Ints
+    """(n_triangles,); all 1 where there is no such array."""
+    names: dict[int, str]
+    """Names by number."""
+
+
+def cell_regions(mesh_file: MeshFile) -> CellRegions:
+    """Return the first array of `REGION_ARRAYS` that the mesh file has and that holds whole numbers."""
+    for name in REGION_ARRAYS:
+        values = mesh_file.cell_data.get(name)
+        if values is not None and values.ndim == 1 and (np.abs(values) < 2**31).all():
+            ids = values.astype(np.int64)
+            if (ids == values).all():
+                return CellRegions(name, ids, mesh_file.cell_names.get(name, {}))
+    return CellRegions(None, np.ones(mesh_file.mesh.n_triangles, dtype=np.int64), {})
+
+
 def warn_of_losses(
     path: str | os.PathLike[str],
     mesh_file: MeshFile,
@@ -73,16 +100,26 @@ def warn_of_losses(
     point_data: Collection[str] | str = (),
     cell_data: Collection[str] | str = (),
     boundaries: Collection[str] = (),
+    has_barriers: bool = False,
+    also: Iterable[str] = (),
 ) -> None:
     """Warn once of all that a mesh file holds and a format has no place for.
 
-    Given are the names of the arrays that have a place (`EVERY` for all) and the kinds of boundaries.
+    Given are the names of the arrays that have a place (`EVERY` for all) the kinds of boundaries, and
+    whether the partners and heights at their nodes have one; `also` names what else is lost.
     """
-    lost = [f"point array {name}" for name in mesh_file.point_data if not _has_place(name, point_data)]
+    lost = [*also]
+    lost += [f"point array {name}" for name in mesh_file.point_data if not _has_place(name, point_data)]
     lost += [f"cell array {name}" for name in mesh_file.cell_data if not _has_place(name, cell_data)]
     kinds = [boundary.kind for boundary in mesh_file.boundaries if boundary.kind not in boundaries]
     counts = [(kind, kinds.count(kind)) for kind in dict.fromkeys(kinds)]
     lost += [f"{count} {kind} boundar{'y' if count == 1 else 'ies'}" for kind, count in counts]
+    told = [b for b in mesh_file.boundaries if b.kind in boundaries]
+    n_barriers = sum(b.partners is not None or b.columns is not None for b in told)
+    if n_barriers and not has_barriers:
+        lost.append(f"the heights and pairs of {n_barriers} barrier{'' if n_barriers == 1 else 's'}")
+    if len(mesh_file.quads) and mesh_file.cell_data:
+        lost.append("cell arrays at the quads")
     if lost:
         log.warning("%s: this format has no place for %s", os.fspath(path), ", ".join(lost))
 

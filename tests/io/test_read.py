@@ -214,10 +214,11 @@ $EndElements
 
 
 def test_physical_groups_on_a_part_of_the_cells_do_not_stop_the_reader(tmp_path):
-    """Meshio raises ValueError there; the tags are left out, the mesh is read, and a note tells."""
+    """Meshio raises ValueError there; the tags are kept, 0 where there is none, and a note tells."""
     path = tmp_path / "partial.msh"
     path.write_text(PARTIAL)
     found = read(path)
     assert found.mesh.n_triangles == 2
-    assert "gmsh:physical" not in found.cell_data
+    assert found.cell_data["gmsh:physical"].tolist() == [7, 0]
+    assert found.cell_names == {"gmsh:physical": {7: "sea"}}
     assert "a part of the cells only" in found.notes[0]
