@@ -172,7 +172,7 @@ FORMATS: tuple[Format, ...] = (
     _meshio("tecplot", (".dat", ".tec"), "Tecplot ASCII", writes=True, keeps="scalar point and cell arrays"),
     _meshio("netgen", (".vol",), "Netgen volume mesh", writes=True, keeps="regions by number"),
     _meshio("dolfin", (".xml",), "DOLFIN XML (FEniCS)", writes=True),
-    _meshio("xdmf", (".xdmf", ".xmf"), "XDMF 3", writes=True, keeps="point and cell arrays"),
+    _meshio("xdmf", (".xdmf", ".xmf"), "XDMF 3", writes=True, extra="h5py", keeps="point and cell arrays"),
     _meshio("mdpa", (".mdpa",), "Kratos", writes=True),
     _meshio("permas", (".post",), "PERMAS", writes=True),
     _meshio("flac3d", (".f3grid",), "FLAC3D"),

@@ -14,7 +14,8 @@
 
 A boundary is a physical curve of line elements, a region (an array of whole numbers as `gmsh:physical`) a
 physical surface. Tags are positive, as MFEM wants them; other arrays become $NodeData and $ElementData,
-where lines and quads have nan.
+where lines and quads have nan. In MSH 2.2 meshio cannot read $ElementData beside lines or quads: there the
+cell arrays have no place.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ from ..atomic import replacing
 from .boundary import labels
 from .file import MeshFile
 from .text_write import counting, table_lines
-from .whole import EVERY, REGION_ARRAYS, WholeMesh, cell_regions, warn_of_losses, whole_mesh
+from .whole import EVERY, WholeMesh, cell_regions, warn_of_losses, whole_mesh
 
 LINE, TRIANGLE, QUAD = 1, 2, 3
 """Element types of Gmsh."""
@@ -71,15 +72,25 @@ def _write(
     path: str | os.PathLike[str],
     text: Callable[[WholeMesh, list[_Block]], Iterator[str]],
 ) -> None:
-    warn_of_losses(path, mesh_file, point_data=EVERY, cell_data=EVERY, boundaries=("open", "land", "named"))
     whole = whole_mesh(mesh_file)
     blocks = _blocks(mesh_file, whole)
+    is_plain = text is _text41 or {block.type for block in blocks} == {TRIANGLE}
+    placed = tuple(_cell_arrays(mesh_file)) if is_plain else ()
+    regions = cell_regions(mesh_file).array
+    warn_of_losses(
+        path,
+        mesh_file,
+        point_data=EVERY,
+        cell_data=placed if regions is None else (*placed, regions),
+        boundaries=("open", "land", "named"),
+    )
     with replacing(path) as temporary, temporary.open("w", encoding="utf-8", newline="\n") as stream:
         version = "2.2" if text is _text22 else "4.1"
         stream.write(f"$MeshFormat\n{version} 0 8\n$EndMeshFormat\n")
         stream.writelines(_names(mesh_file))
         stream.writelines(text(whole, blocks))
-        stream.writelines(_data(mesh_file, whole, blocks))
+        stream.writelines(_point_data(whole))
+        stream.writelines(_cell_data({name: mesh_file.cell_data[name] for name in placed}, blocks))
 
 
 def _blocks(mesh_file: MeshFile, whole: WholeMesh) -> list[_Block]:
@@ -161,20 +172,27 @@ def _text41(whole: WholeMesh, blocks: list[_Block]) -> Iterator[str]:
     yield "$EndElements\n"
 
 
-def _data(mesh_file: MeshFile, whole: WholeMesh, blocks: list[_Block]) -> Iterator[str]:
+def _point_data(whole: WholeMesh) -> Iterator[str]:
     for name, values in whole.point_data.items():
         yield from _section("NodeData", name, _columns(values))
-    used = (cell_regions(mesh_file).array, *REFERENCES)
-    for name, values in mesh_file.cell_data.items():
-        if name not in used and name not in REGION_ARRAYS[:1]:
-            columns = _columns(values)
-            rows = [
-                columns[block.order]
-                if block.type == TRIANGLE
-                else np.full((len(block.corners), columns.shape[1]), np.nan)
-                for block in blocks
-            ]
-            yield from _section("ElementData", name, np.concatenate(rows))
+
+
+def _cell_arrays(mesh_file: MeshFile) -> Iterator[str]:
+    """Give the names of the arrays that become $ElementData: all but the regions and what is made anew."""
+    made = (cell_regions(mesh_file).array, *REFERENCES)
+    return (name for name in mesh_file.cell_data if name not in made)
+
+
+def _cell_data(arrays: dict[str, Floats], blocks: list[_Block]) -> Iterator[str]:
+    for name, values in arrays.items():
+        columns = _columns(values)
+        rows = [
+            columns[block.order]
+            if block.type == TRIANGLE
+            else np.full((len(block.corners), columns.shape[1]), np.nan)
+            for block in blocks
+        ]
+        yield from _section("ElementData", name, np.concatenate(rows))
 
 
 def _columns(values: Floats) -> Floats:

@@ -70,11 +70,12 @@ def read_2dm(path: Path) -> RawMesh:
         raise MeshReadError("no ND line defines a point; fetch the whole file")
     table, lines = np.concatenate(found.points), np.concatenate(found.point_lines)
     numbers = point_numbers(whole(table[:, 0], lines, "the number of a point"), lines)
-    quads = _cells(found, 4, numbers)
-    materials = np.concatenate([np.empty(0), *found.materials])
+    triangles, order = _cells(found, 3, numbers)
+    quads, _ = _cells(found, 4, numbers)
+    materials = np.concatenate([np.empty(0), *found.materials])[order]
     return RawMesh(
         points=np.ascontiguousarray(table[:, 1:3]),
-        triangles=_cells(found, 3, numbers),
+        triangles=triangles,
         quads=quads,
         point_data={"depth": table[:, 3].copy()},
         cell_data={"material": materials} if (materials != NO_MATERIAL).any() else {},
@@ -122,10 +123,12 @@ def _take_elements(found: _Found, kind: bytes, chunk: Chunk) -> None:
         found.materials.append(material)
 
 
-def _cells(found: _Found, n_corners: int, numbers: NodeNumbers) -> Ints:
+def _cells(found: _Found, n_corners: int, numbers: NodeNumbers) -> tuple[Ints, Ints]:
+    """Return the corners of the cells as indices, and the order of the file, to take other columns by."""
     named = np.concatenate([np.empty((0, n_corners), dtype=np.int64), *found.cells[n_corners]])
     lines = np.concatenate([np.empty(0, dtype=np.int64), *found.cell_lines[n_corners]])
-    return corner_indices(named, numbers, lines)
+    order = np.argsort(lines, kind="stable")
+    return corner_indices(named[order], numbers, lines[order]), order
 
 
 def _nodestrings(rows: Sequence[tuple[int, bytes]], numbers: NodeNumbers) -> tuple[Boundary, ...]:

@@ -64,7 +64,7 @@ def _read_gmsh(path: Path) -> tuple[Any, tuple[str, ...]]:
     except ValueError as error:  # meshio refuses tags or data that only some of the cells carry
         if "ata" not in str(error):
             raise
-    from meshio.gmsh import _gmsh41
+    from meshio.gmsh import _gmsh22, _gmsh41
     from meshio.gmsh.main import _read_header
 
     notes: list[str] = []
@@ -77,25 +77,29 @@ def _read_gmsh(path: Path) -> tuple[Any, tuple[str, ...]]:
         tagged = tuple({e: t or [0] for e, t in of_entity.items()} for of_entity in physical_tags)
         return tagged, bounding_entities
 
-    def mesh_without_partial_data(points: Any, cells: Any, **data: Any) -> Any:
-        for kind, items in (("point_data", points), ("cell_data", cells)):
-            whole = {name: values for name, values in data[kind].items() if len(values) == len(items)}
-            if len(whole) < len(data[kind]):
-                notes.append(PARTIAL_DATA)
-            data[kind] = whole
-        data["cell_sets"] = None
-        return meshio.Mesh(points, cells, **data)
+    def cell_data_by_block(cells: Any, arrays: Any) -> Any:
+        lengths = [len(cell[1]) if isinstance(cell, tuple) else len(cell) for cell in cells]
+        whole = {name: values for name, values in arrays.items() if len(values) == sum(lengths)}
+        if len(whole) < len(arrays):
+            notes.append(PARTIAL_DATA)
+        return {name: np.split(values, np.cumsum(lengths)[:-1]) for name, values in whole.items()}
 
-    own = {"_read_entities": read_entities, "Mesh": mesh_without_partial_data}
-    reader = _gmsh41.read_buffer
-    lenient = types.FunctionType(reader.__code__, {**reader.__globals__, **own})
+    def mesh_of_whole_data(points: Any, cells: Any, **data: Any) -> Any:
+        whole = {name: values for name, values in data["point_data"].items() if len(values) == len(points)}
+        if len(whole) < len(data["point_data"]):
+            notes.append(PARTIAL_DATA)
+        return meshio.Mesh(points, cells, **{**data, "point_data": whole, "cell_sets": None})
+
     with path.open("rb") as stream:
         while stream.readline().strip() != b"$MeshFormat":
             pass
         version, data_size, is_ascii = _read_header(stream)
-        if not version.startswith("4"):
-            raise MeshReadError("data cover a part of the points or cells only; save them for all of them")
-        return lenient(stream, is_ascii, data_size), tuple(notes)
+        reader = (_gmsh22 if version.startswith("2") else _gmsh41).read_buffer
+        own = {"cell_data_from_raw": cell_data_by_block, "Mesh": mesh_of_whole_data}
+        if "_read_entities" in reader.__globals__:
+            own["_read_entities"] = read_entities
+        lenient = types.FunctionType(reader.__code__, {**reader.__globals__, **own})
+        return lenient(stream, is_ascii, data_size), tuple(dict.fromkeys(notes))
 
 
 def _converted(found: Any, notes: Iterable[str]) -> RawMesh:
