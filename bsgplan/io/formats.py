@@ -133,7 +133,7 @@ FORMATS: tuple[Format, ...] = (
         "MFEM mesh, 1.0 to 1.3, conforming",
         ".mfem:read_mfem",
         ".mfem_write:write_mfem",
-        keeps="quads; cell array attribute; boundaries with their names",
+        keeps="quads; regions by number; boundaries with their names",
     ),
     Format(
         "selafin",

@@ -12,18 +12,18 @@ from ..atomic import replacing
 from .boundary_edges import edge_groups
 from .file import MeshFile
 from .text_write import table_lines
-from .whole import warn_of_losses, whole_mesh
+from .whole import cell_regions, warn_of_losses, whole_mesh
 
 
 def write_mfem(mesh_file: MeshFile, path: str | os.PathLike[str]) -> None:
     """Write vertices, triangles, squares, attributes and the rim with an attribute for each boundary.
 
-    Attributes of triangles are the cell array `attribute` where that is whole and positive, else 1; those of
-    squares are 1. A projected mesh is written in degrees. The file appears whole or not at all; raises
+    Attributes of triangles are the numbers of their regions where those are positive, else 1; squares have 1.
+    A projected mesh is written in degrees. The file appears whole or not at all; raises
     OutputError.
     """
     lines = _lines(mesh_file)
-    kept = ("attribute",) if _attributes(mesh_file).any() else ()
+    kept = (str(cell_regions(mesh_file).array),) if _attributes(mesh_file).any() else ()
     warn_of_losses(path, mesh_file, cell_data=kept, boundaries=("named", "open", "land"))
     with replacing(path) as temporary, temporary.open("w", encoding="utf-8", newline="\n") as stream:
         stream.writelines(lines)
@@ -55,10 +55,7 @@ def _lines(mesh_file: MeshFile) -> Iterator[str]:
 
 
 def _attributes(mesh_file: MeshFile) -> Ints:
-    """Return the cell array `attribute` as integers, zeros where it cannot be that of MFEM."""
-    values = mesh_file.cell_data.get("attribute")
-    zeros = np.zeros(mesh_file.mesh.n_triangles, dtype=np.int64)
-    if values is None or values.ndim != 1 or not np.isfinite(values).all():
-        return zeros
-    is_valid = (values == np.rint(values)) & (values >= 1) & (values < 2**31)
-    return values.astype(np.int64) if is_valid.all() else zeros
+    """Return the numbers of the regions as integers, zeros where MFEM cannot have them."""
+    regions = cell_regions(mesh_file)
+    is_valid = regions.array is not None and bool((regions.ids >= 1).all())
+    return regions.ids if is_valid else np.zeros(mesh_file.mesh.n_triangles, dtype=np.int64)

@@ -66,7 +66,7 @@ def whole_mesh(mesh_file: MeshFile) -> WholeMesh:
     return WholeMesh(points, mesh.triangles, quads, data, boundaries)
 
 
-REGION_ARRAYS = ("gmsh:physical", "material", "medit:ref", "attribute", "tag")
+REGION_ARRAYS = ("gmsh:physical", "material", "medit:ref", "attribute", "tag", "netgen:index")
 """What formats call the number of the region (material, physical group) that a cell belongs to."""
 
 
