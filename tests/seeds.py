@@ -48,6 +48,18 @@ nodes\nFiniteElementSpace\nFiniteElementCollection: H1_2D_P1\nVDim: 2\nOrdering:
         """$NOD\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n7 0 1 0\n$ENDNOD
 $ELM\n4\n1 1 5 6 2 1 2\n2 2 1 1 3 1 2 3\n3 2 1 1 3 1 3 7\n9 15 1 1 1 7\n$ENDELM
 """,
+        """$NOD\n5\n1 0 0 0\n2 1 0 0\n7 1 1 0\n4 0 1 0\n6 2 1 0\n$ENDNOD\n$ELM\n5\n1 15 0 1 1 1
+2 1 5 1 2 1 2\n4 2 8 1 3 1 2 7\n5 2 9 1 3 1 7 4\n6 3 0 1 4 2 6 7 4\n$ENDELM\n""",
+    ],
+    "2dm": [
+        """MESH2D\nE6T 1 10 50 20 60 30 40 2\nE3T 2 10 30 40\nE2L 3 10 20 1\nND 10 0 0 -1.5\nND 40 0 1 4
+ND 20 1 0 2\nND 30 1 1 3\nND 50 2 0 5\nND 60 2 1 6\nNS 10 20\nNS -30 3 "sea"\nMAT 2 "sand"
+""",
+    ],
+    "jigsaw": [
+        """# c\nMSHID=3;ELLIPSOID-MESH\nRADII=1;1;1\nNDIMS=2\nPOINT=4\n0;0;0\n.1;0;1\n.1;.1;0\n0;.1;0
+VALUE=4;2\n1;2\n3;4\n5;6\n7;8\nEDGE2=1\n0;1;4\nBOUND=1\n0;1;2\nTRIA3=2\n0;1;2;0\n0;2;3;3\nTRIA4=0
+""",
     ],
     "selafin": [selafin(order="<", date=True)],
 }

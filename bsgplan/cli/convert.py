@@ -5,7 +5,9 @@ from __future__ import annotations
 import logging
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
+
+from cyclopts import Parameter
 
 from .output import check_writable
 
@@ -16,7 +18,14 @@ CARRIED = ("quad", "line", "line3", "vertex")
 """Cells beside triangles that are written as cells or boundaries, or that say nothing."""
 
 
-def convert(file: Path, out: Path, /, *, format: str | None = None) -> None:
+def convert(
+    file: Path,
+    out: Path,
+    /,
+    *,
+    format: str | None = None,
+    split_quads: Annotated[bool, Parameter(negative=(), show_default=False)] = False,
+) -> None:
     """Write a mesh in another format, with its data and boundaries where they have a place there.
 
     Parameters
@@ -27,18 +36,18 @@ def convert(file: Path, out: Path, /, *, format: str | None = None) -> None:
         The file to write, its format told by the suffix.
     format
         The format to write, by its name in info --formats: needed where the suffix tells nothing or another.
+    split_quads
+        Split quads into triangles, for formats of triangles alone.
     """
     from ..io import read
     from ..io.companions import warn_of_companions
-    from ..io.triangle import both_paths
+    from ..io.triangle import ELE, NODE, both_paths
     from ..io.write import writable
 
     found = writable(out, format)
     outputs = both_paths(out) if found.name == "triangle" else (out,)
-    mesh_file = read(file)
-    sources = both_paths(file) if mesh_file.format == "triangle" else (file,)
-    for source in sources:
-        check_writable(*outputs, source=source)
+    check_writable(*outputs, sources=both_paths(file) if file.suffix.lower() in (NODE, ELE) else (file,))
+    mesh_file = read(file, split_quads=split_quads)
     found.write(mesh_file, out)
     left = {name: n for name, n in mesh_file.ignored.items() if name not in CARRIED}
     if left:
@@ -51,7 +60,7 @@ def convert(file: Path, out: Path, /, *, format: str | None = None) -> None:
 
 def _concerns_the_plan(note: str, mesh_file: MeshFile) -> bool:
     """Return whether a note tells what a plan leaves out and a file does not: quads and their boundaries."""
-    return bool(len(mesh_file.quads)) and ("left out of the plan" in note or "boundary entries" in note)
+    return bool(len(mesh_file.quads)) and ("measured apart" in note or "boundary entries" in note)
 
 
 def _contents(mesh_file: MeshFile) -> str:

@@ -48,7 +48,8 @@ def read_gmsh1(path: Path) -> RawMesh:
     rows = _by_type(elements)
     cells = {k: _cells(rows, k) for k in (2, 3, 4)}
     corners = {k: corner_indices(cell[:, 2:], numbers, cell[:, 0]) for k, cell in cells.items()}
-    physical = cells[3][:, 1]
+    physical, of_quads = cells[3][:, 1], cells[4][:, 1]
+    has_groups = bool(physical.any() or of_quads.any())
     groups = np.unique(cells[2][:, 1])
     ignored: dict[str, int] = {}
     for type_, of_type in rows.items():
@@ -59,7 +60,8 @@ def read_gmsh1(path: Path) -> RawMesh:
         points=points.columns(1, 4, "a point"),
         triangles=corners[3],
         quads=corners[4],
-        cell_data={PHYSICAL: physical.astype(np.float64)} if physical.any() else {},
+        cell_data={PHYSICAL: physical.astype(np.float64)} if has_groups else {},
+        quad_data={PHYSICAL: of_quads.astype(np.float64)} if has_groups else {},
         boundaries=tuple(
             Boundary("named", np.unique(edges), tag, edges=edges)
             for tag in groups[groups != 0].tolist()

@@ -68,7 +68,7 @@ def read_jigsaw(path: Path) -> RawMesh:
         while (line := records.line()) is not None:
             _read_section(found, records, line)
     if found.kind.endswith("-grid"):
-        raise MeshReadError("a JIGSAW grid, a size field without cells; give the mesh that was made with it")
+        raise MeshReadError("a JIGSAW grid, a size field without cells; give it with --size-file")
     if found.points is None:
         raise MeshReadError("no POINT section; fetch the whole file")
     n_points = len(found.points)
@@ -77,7 +77,8 @@ def read_jigsaw(path: Path) -> RawMesh:
             raise MeshReadError(f"{len(values)} rows of {name} for {n_points} points; repair the file")
     cells = {name: _corners(found, name, n_points) for name in ("EDGE2", "TRIA3", "QUAD4")}
     is_ellipsoid = found.kind == "ellipsoid-mesh"
-    tags = _tags(found, "TRIA3")
+    tags, quad_tags = _tags(found, "TRIA3"), _tags(found, "QUAD4")
+    has_tags = bool(tags.any() or quad_tags.any())
     point_data = {name.lower(): values for name, values in found.arrays.items()}
     if found.point_tags is not None and found.point_tags.any():
         point_data["tag"] = found.point_tags.astype(np.float64)
@@ -86,7 +87,8 @@ def read_jigsaw(path: Path) -> RawMesh:
         triangles=cells["TRIA3"],
         quads=cells["QUAD4"],
         point_data=point_data,
-        cell_data={"tag": tags.astype(np.float64)} if tags.any() else {},
+        cell_data={"tag": tags.astype(np.float64)} if has_tags else {},
+        quad_data={"tag": quad_tags.astype(np.float64)} if has_tags else {},
         boundaries=tuple(
             Boundary("named", np.unique(edges), tag, edges=edges)
             for tag in np.unique(_tags(found, "EDGE2")).tolist()

@@ -51,7 +51,7 @@ class _Found:
     point_lines: list[Ints] = field(default_factory=list)
     cells: dict[int, list[Ints]] = field(default_factory=lambda: {3: [], 4: []})
     cell_lines: dict[int, list[Ints]] = field(default_factory=lambda: {3: [], 4: []})
-    materials: list[Floats] = field(default_factory=list)
+    materials: dict[int, list[Floats]] = field(default_factory=lambda: {3: [], 4: []})
     strings: list[tuple[int, bytes]] = field(default_factory=list)
     names: dict[int, str] = field(default_factory=dict)
     ignored: dict[str, int] = field(default_factory=dict)
@@ -70,15 +70,16 @@ def read_2dm(path: Path) -> RawMesh:
         raise MeshReadError("no ND line defines a point; fetch the whole file")
     table, lines = np.concatenate(found.points), np.concatenate(found.point_lines)
     numbers = point_numbers(whole(table[:, 0], lines, "the number of a point"), lines)
-    triangles, order = _cells(found, 3, numbers)
-    quads, _ = _cells(found, 4, numbers)
-    materials = np.concatenate([np.empty(0), *found.materials])[order]
+    triangles, materials = _cells(found, 3, numbers)
+    quads, of_quads = _cells(found, 4, numbers)
+    has_materials = bool((materials != NO_MATERIAL).any() or (of_quads != NO_MATERIAL).any())
     return RawMesh(
         points=np.ascontiguousarray(table[:, 1:3]),
         triangles=triangles,
         quads=quads,
         point_data={"depth": table[:, 3].copy()},
-        cell_data={"material": materials} if (materials != NO_MATERIAL).any() else {},
+        cell_data={"material": materials} if has_materials else {},
+        quad_data={"material": of_quads} if has_materials else {},
         boundaries=_nodestrings(found.strings, numbers),
         ignored={**({"quad": len(quads)} if len(quads) else {}), **found.ignored},
         title=found.title,
@@ -119,16 +120,16 @@ def _take_elements(found: _Found, kind: bytes, chunk: Chunk) -> None:
     corners = CORNERS[kind]
     found.cells[len(corners)].append(whole(table[:, corners], chunk.line_numbers, "a point"))
     found.cell_lines[len(corners)].append(chunk.line_numbers)
-    if len(corners) == 3:
-        found.materials.append(material)
+    found.materials[len(corners)].append(material)
 
 
-def _cells(found: _Found, n_corners: int, numbers: NodeNumbers) -> tuple[Ints, Ints]:
-    """Return the corners of the cells as indices, and the order of the file, to take other columns by."""
+def _cells(found: _Found, n_corners: int, numbers: NodeNumbers) -> tuple[Ints, Floats]:
+    """Return the corners of the cells as indices and their materials, both in the order of the file."""
     named = np.concatenate([np.empty((0, n_corners), dtype=np.int64), *found.cells[n_corners]])
     lines = np.concatenate([np.empty(0, dtype=np.int64), *found.cell_lines[n_corners]])
     order = np.argsort(lines, kind="stable")
-    return corner_indices(named[order], numbers, lines[order]), order
+    materials = np.concatenate([np.empty(0), *found.materials[n_corners]])
+    return corner_indices(named[order], numbers, lines[order]), materials[order]
 
 
 def _nodestrings(rows: Sequence[tuple[int, bytes]], numbers: NodeNumbers) -> tuple[Boundary, ...]:

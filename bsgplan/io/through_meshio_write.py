@@ -45,7 +45,7 @@ def write_through_meshio(mesh_file: MeshFile, path: str | os.PathLike[str], file
     if file_format in TRIANGLES_ONLY and len(mesh_file.quads):
         raise OutputError(
             f"{Path(path)}: the mesh has {len(mesh_file.quads)} quads, {file_format} takes triangles alone; "
-            "write .vtu, or split them first"
+            "write .vtu, or split them with --split-quads"
         )
     mesh = _mesh(mesh_file, path, file_format)
     with replacing(path) as temporary, warnings.catch_warnings():

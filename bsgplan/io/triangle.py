@@ -136,7 +136,7 @@ def write_triangle(mesh_file: MeshFile, path: str | os.PathLike[str]) -> None:
     points_path, cells_path = both_paths(Path(path))
     if len(mesh_file.quads):
         raise OutputError(
-            f"{Path(path)}: the mesh has {len(mesh_file.quads)} quads, .ele has none; split them first"
+            f"{Path(path)}: {len(mesh_file.quads)} quads, .ele has none; split them with --split-quads"
         )
     if not mesh_file.mesh.is_planar:
         raise OutputError(f"{Path(path)}: the mesh is a surface in space, a .node is planar; write .vtu")

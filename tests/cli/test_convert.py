@@ -86,7 +86,7 @@ def test_what_is_lost_is_one_warning(square, capsys):
     [
         ("out.xyz", [], 2, "suffix '.xyz'"),
         ("out.msh", ["--format", "gmsh9"], 2, "'gmsh9' is not written"),
-        ("fort.14", [], 2, "is the mesh file itself"),
+        ("fort.14", [], 2, "is a file that is read"),
         ("no/out.off", [], 3, "does not exist"),
     ],
 )
@@ -104,5 +104,15 @@ def test_neither_file_of_a_pair_is_overwritten_by_its_own_mesh(square, capsys):
     assert main(["convert", str(square), str(node)]) == 0
     before = node.read_text()
     assert main(["convert", str(node), str(node.with_suffix(".ele"))]) == 2
-    assert "is the mesh file itself" in capsys.readouterr().err
+    assert "is a file that is read" in capsys.readouterr().err
     assert node.read_text() == before
+
+
+def test_quads_are_split_where_asked(tmp_path, capsys):
+    mesh, out = tmp_path / "mixed.14", tmp_path / "mixed.off"
+    mesh.write_text("quad\n2 5\n1 0 0 1\n2 1 0 1\n3 1 1 1\n4 0 1 1\n5 2 0 1\n1 4 1 2 3 4\n2 3 2 5 3\n")
+    assert main(["convert", str(mesh), str(out)]) == 3
+    assert "split them with --split-quads" in capsys.readouterr().err
+    assert not out.exists()
+    assert main(["convert", str(mesh), str(out), "--split-quads"]) == 0
+    assert read(out).mesh.n_triangles == 3

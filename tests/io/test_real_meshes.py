@@ -163,14 +163,6 @@ def test_every_file_is_read_or_refused_in_one_line(path, capsys):
     assert (out == "") == (expected != 0)
 
 
-@pytest.mark.parametrize(
-    "name", [n for n in ("jigsaw_piece.msh", "la.1.node", "la.1.ele") if FILES and not is_read(n)]
-)
-def test_formats_of_a_later_issue_are_named_with_a_remedy(name):
-    with pytest.raises(BsgplanError, match="are not read; "):
-        read(FOLDER / name)
-
-
 def test_the_four_malformed_files_name_their_line(meshes):
     for path in sorted((meshes / "malformed_fort14").iterdir()):
         with pytest.raises(BsgplanError, match=r"\.14: line \d+: .*;"):
