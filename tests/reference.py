@@ -7,6 +7,8 @@ import struct
 from collections import defaultdict
 from collections.abc import Sequence
 
+import numpy as np
+
 Cells = list[list[int]]
 
 
@@ -221,3 +223,33 @@ def holds(triangle: Sequence[Sequence[float]], point: Sequence[float]) -> bool:
         for u, v in ((a, b), (b, c), (c, a))
     ]
     return all(area >= 0 for area in areas) or all(area <= 0 for area in areas)
+
+
+def every_sequence(
+    widths: tuple[np.ndarray, np.ndarray], ends: tuple[int, int], length: float, *, blocks: int, most: int
+) -> list[tuple[int, int, tuple[int, ...]]] | None:
+    """Return blocks, iota+ and counts of all non-increasing sequences that fit a length; None beyond so many.
+
+    widths holds the smallest and the largest width of the strip between any two counts. Strip by strip, with
+    nothing left out but what is already too long or has more than the given blocks.
+    """
+    low, high = widths
+    fine, coarse = ends
+    pairs = [(m, n) for m in range(coarse, fine + 1) for n in range(coarse, m + 1) if low[m, n] <= length]
+    paths, sums = np.full((1, 1), fine), np.zeros((3, 1))  # lo, hi, blocks
+    found = []
+    while len(paths):
+        at = [np.flatnonzero(paths[:, -1] == m) for m in range(fine + 1)]
+        which = np.concatenate([np.zeros(0, int), *(at[m] for m, _ in pairs)])
+        below = np.concatenate([np.zeros(0, int), *(np.full(len(at[m]), n) for m, n in pairs)])
+        above = paths[which, -1]
+        sums = sums[:, which] + np.stack([low[above, below], high[above, below], above + below])
+        fits = (sums[0] <= length + 1e-12) & (sums[2] <= blocks)
+        paths, sums = np.column_stack([paths[which[fits]], below[fits]]), sums[:, fits]
+        ended = (paths[:, -1] == coarse) & (sums[1] >= length - 1e-12)
+        irregularities = np.diff(paths[ended][:, [0, *range(paths.shape[1]), -1]], n=2)
+        positive = np.maximum(irregularities, 0).sum(axis=1)
+        found += zip(sums[2, ended].astype(int), positive, map(tuple, paths[ended]), strict=True)
+        if max(len(paths), len(found)) > most:
+            return None
+    return found
