@@ -108,7 +108,7 @@ def _pool(
 
 
 def is_exact(fine: int, coarse: int) -> bool:
-    """Return whether the search proves its answer, at any length: with no more than EXACT elements on a front.
+    """Return whether the search proves its answer, at any length: up to EXACT elements on a front.
 
     >>> is_exact(16, 1), is_exact(4, 17)
     (True, False)

@@ -5,14 +5,14 @@ reaches Q over a length where sum lo(Q) <= length <= sum hi(Q). At a fixed Q a p
 down to a count is therefore known by five numbers: blocks, iota+ so far, its last drop, sum lo and sum hi.
 iota+ is the sum of the rises of the drop f(k) - f(k+1), [Zint & Grosso], Eq. 16 to 18.
 
-Long transitions reduce to short ones. Strips of equal fronts of n elements have the widths of those of c,
-the coarse end, times c / n, at every Q: n / gcd(n, c) of the former are as long as c / gcd(n, c) of the latter,
+Long transitions reduce to short ones. Strips of equal fronts of n elements have the widths of those of c, the
+coarse end, times c / n, at every Q: n / gcd(n, c) of the former are as long as c / gcd(n, c) of the latter,
 which have fewer blocks and add no iota+ at the end of a sequence. So there are fewer than n / gcd(n, c) of
 them before the coarse end, whatever the length, and only the last front is repeated at will: its number
-follows by division. Partial sequences are left out where another one, perhaps followed by some such strips, is
-as good in all five numbers (`search_labels`), where they cannot end with fewer blocks or less iota+ than a
-pattern known to reach Q, and a strip of equal fronts is added only while the sequence may still be too short.
-None of this loses one that counts.
+follows by division. Partial sequences are left out where another one, perhaps followed by some such strips,
+is as good in all five numbers (`search_labels`), where they cannot end with fewer blocks or less iota+ than
+a pattern known to reach Q, and a strip of equal fronts is added only while the sequence may still be too
+short. None of this loses one that counts.
 The front follows by raising Q from the least quality wanted to just above the worst pattern known, again
 and again: each round is one dynamic programme and leaves that pattern behind.
 """
@@ -180,7 +180,7 @@ class _Step:
         return Rest(enough, spare)
 
     def ended(self, labels: Labels) -> tuple[Ints, Floats]:
-        """Return the strips that each label needs at the coarse end, and its blocks, inf where none fit; (n,)."""
+        """Return the strips needed at the coarse end, and the blocks with them, inf where none fit, (n,)."""
         low, high = labels.widths
         missing = np.maximum(self.length * (1 - SLACK) - high, 0.0)
         n_more = np.zeros(len(labels), dtype=np.int64)

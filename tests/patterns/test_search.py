@@ -24,7 +24,6 @@ from bsgplan.patterns.search_pool import improved, regular_sequences
 from bsgplan.patterns.search_priced import priced_sequences
 from bsgplan.patterns.search_strips import (
     best_widths,
-    front,
     known,
     qualities_over,
     strip_forms,

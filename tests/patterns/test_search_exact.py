@@ -133,7 +133,7 @@ def test_at_free_length_all_strictly_decreasing_sequences_are_tried(fine, coarse
 @example(1, 15, 32.0, 0.8649)
 @settings(max_examples=25, deadline=None)
 def test_equal_fronts_wait_for_the_coarse_end(coarse, more, layers, q):
-    """Long transitions: what is found reaches q, and repeats inner fronts less often than can be exchanged."""
+    """Long transitions: what is found reaches q, and repeats inner fronts less than can be exchanged."""
     fine = min(coarse + more, EXACT)
     if fine == coarse:
         return
