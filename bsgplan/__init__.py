@@ -13,7 +13,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .io import MeshFile, read, read_lonlat
+    from .io import MeshFile, read, read_lonlat, write
     from .mesh import Mesh
     from .patterns import Pattern, Shape, best_spacing, bounds
     from .pipeline import plan_blocks
@@ -40,6 +40,7 @@ _HOMES = {
     "SizeField": "sizing",
     "named_size_field": "sizing",
     "size_field": "sizing",
+    "write": "io",
 }
 
 __all__ = [
@@ -60,6 +61,7 @@ __all__ = [
     "read",
     "read_lonlat",
     "size_field",
+    "write",
 ]
 
 

@@ -9,6 +9,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
@@ -17,8 +18,9 @@ import shapely
 from shapely.geometry.base import BaseGeometry
 
 from .arrays import sums_by
-from .errors import MeshReadError
+from .errors import InvalidMesh, MeshReadError
 from .io import MeshFile
+from .io.size_file import sizes_from
 from .mesh import clean
 from .planning import Plan, check_block_size, estimate
 from .planning.inverse import within
@@ -38,6 +40,7 @@ def plan_blocks(
     tris_per_block: int | Sequence[int] = 16,
     n_blocks: int | None = None,
     size: str | None = None,
+    size_file: str | os.PathLike[str] | None = None,
     region: BaseGeometry | None = None,
     objective: str = "balanced",
     persistence: float = PERSISTENCE,
@@ -48,16 +51,17 @@ def plan_blocks(
     """Return a mesh file with its plans, one a block size.
 
     With n_blocks there is one plan, at the smallest block size that needs no more blocks than that. size
-    names a point or cell array; region is a polygon in the coordinates of the file, cut out first: each of
-    its connected pieces is one region.
-    Raises what its steps raise; see `estimate`, `find_regions` and `within`.
+    names a point or cell array, of size_file if that is given; region is a polygon in the coordinates of the
+    file, cut out first: each of its connected pieces is one region.
+    Raises what its steps raise; see `estimate`, `find_regions` and `within`. Raises InvalidMesh for quads.
     """
+    check_triangles_only(mesh_file)
     sizes = tuple(int(n) for n in np.atleast_1d(tris_per_block))
     for n in sizes:
         check_block_size(n)
     cut = mesh_file if region is None else cut_out(mesh_file, region)
     progress("measuring sizes")
-    field = size_of(cut, size)
+    field = size_of(cut, size, size_file)
 
     def drawn(n: int) -> Regions:
         label = connected(field.mesh, np.zeros(field.mesh.n_triangles, dtype=np.int64))
@@ -77,12 +81,27 @@ def plan_blocks(
     return PlannedMesh(cut, tuple(plan_at(n) for n in sizes))
 
 
-def size_of(mesh_file: MeshFile, name: str | None) -> SizeField:
-    """Return the size field of a mesh file: its own edges, or the array of that name.
+def check_triangles_only(mesh_file: MeshFile) -> None:
+    """Raise InvalidMesh for a mesh with quads, which a plan would leave out."""
+    if len(mesh_file.quads):
+        raise InvalidMesh(
+            f"{mesh_file.path}: {len(mesh_file.quads)} quads beside {mesh_file.mesh.n_triangles} triangles; "
+            "only triangles are planned, split the quads with --split-quads"
+        )
 
-    An array of a projected mesh is in true metres. Raises MeshReadError where there is no such array.
+
+def size_of(
+    mesh_file: MeshFile, name: str | None = None, size_file: str | os.PathLike[str] | None = None
+) -> SizeField:
+    """Return the size field of a mesh file: its own edges, its array of that name, or that of a size file.
+
+    Lengths of a projected mesh are true metres. Raises MeshReadError where there is no such array, and what
+    `sizes_from` raises.
     """
     mesh = mesh_file.mesh
+    if size_file is not None:
+        source = os.fspath(size_file) + ("" if name is None else f": {name}")
+        return named_size_field(mesh, sizes_from(size_file, mesh_file, name=name), source)
     if name is None:
         return size_field(mesh)
     arrays = {**mesh_file.cell_data, **mesh_file.point_data}
@@ -116,4 +135,5 @@ def cut_out(mesh_file: MeshFile, region: BaseGeometry) -> MeshFile:
         point_data={name: values[kept] for name, values in mesh_file.point_data.items()},
         cell_data={name: values[inside] for name, values in mesh_file.cell_data.items()},
         boundaries=(),
+        kept_points=mesh_file.kept_points[kept],
     )

@@ -13,9 +13,11 @@ import numpy as np
 
 from .arrays import Floats
 from .atomic import replacing
-from .io import MeshFile
+from .io import MeshFile, Projection
+from .io.file import RawMesh, quads_apart
 from .planning import Plan
 from .report import Table, mesh_report, plan_document, plan_tables
+from .report.quad_report import quad_measures
 from .report.table import html, text
 
 
@@ -98,8 +100,34 @@ def mesh_document(mesh_file: MeshFile) -> dict[str, Any]:
         "format": found["format"],
         **mesh_report.measures(mesh, scale=scale),
         "bounds": list(bounds),
-        "quads": mesh_report.quad_measures(mesh_file.quad_points, mesh_file.quads, scale=quad_scale),
+        "quads": quad_measures(mesh_file.quad_points, mesh_file.quads, scale=quad_scale),
         **found,
+    }
+
+
+def quads_document(
+    path: str | os.PathLike[str], file_format: str, raw: RawMesh, projection: Projection | None = None
+) -> dict[str, Any]:
+    """Return the document of a mesh of quads and no triangle, as it stands in its file.
+
+    Raises InvalidMesh where a quad names a point that is not there.
+    """
+    points, quads, _ = quads_apart(raw)
+    scale = None if projection is None else projection.scale(points)
+    shown = points if projection is None else projection.to_unbroken_degrees(points)
+    return {
+        "path": os.fspath(path),
+        "format": file_format,
+        **mesh_report.measures_without_triangles(),
+        "n_points": len(points),
+        "bounds": np.column_stack([shown.min(axis=0), shown.max(axis=0)]).ravel().tolist(),
+        "quads": quad_measures(points, quads, scale=scale),
+        "title": raw.title,
+        "ignored": dict(raw.ignored),
+        "boundaries": [],
+        "arrays": {"points": sorted(raw.point_data), "cells": sorted(raw.quad_data)},
+        "notes": [*raw.notes, "no triangles; --split-quads makes triangles of the quads"],
+        "projection": None if projection is None else projection.description(),
     }
 
 

@@ -50,6 +50,7 @@ def region_of(name: str) -> str:
 
 TEXTS: dict[str, tuple[str, ...]] = {
     "info.txt": ("info", case("rectangle")),
+    "formats.txt": ("info", "--formats"),
     "square.txt": ("estimate", case("square")),
     "rectangle.txt": ("estimate", case("rectangle"), "--tris-per-block", "16"),
     "region.txt": ("estimate", case("rectangle"), "--region", region_of("rectangle")),
@@ -60,6 +61,7 @@ TEXTS: dict[str, tuple[str, ...]] = {
     "too-few-blocks.txt": ("estimate", case("shoreline"), "--blocks", "5"),
     "no-square.txt": ("estimate", case("square"), "--tris-per-block", "20"),
     "no-array.txt": ("estimate", case("plate"), "--size", "depth"),
+    "uncovered.txt": ("estimate", case("rectangle"), "--size-file", case("square")),
     "size.txt": ("estimate", case("plate"), "--size", "size"),
 }
 """File in docs/examples/ and the command whose output it holds."""

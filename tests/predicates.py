@@ -102,3 +102,14 @@ def assert_is_plan(plan: Plan) -> None:
     assert plan.planned_triangles == sum(p.planned_triangles for p in plan.region_plans)
     assert plan.irregularity.positive == sum(p.irregularity.positive for p in plan.region_plans)
     assert plan.irregularity.negative == sum(p.irregularity.negative for p in plan.region_plans)
+
+
+def plan_key(plan: Plan) -> tuple[list[tuple[str, int, int, tuple[int, ...]]], list[float]]:
+    """Return what two plans of one mesh share: counts, compared exactly, and ratios, compared as floats."""
+    parts = plan.region_plans
+    counts = [
+        (p.region.kind, p.region.n_triangles, p.n_blocks, p.chosen.pattern.counts if p.chosen else ())
+        for p in parts
+    ]
+    ratios = [plan.regions.size.expected_triangles, *(p.region.h_max / p.region.h_min for p in parts)]
+    return counts, [*ratios, *(p.chosen.q_min for p in parts if p.chosen)]

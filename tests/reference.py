@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import math
+import struct
 from collections import defaultdict
 from collections.abc import Sequence
+
+import numpy as np
 
 Cells = list[list[int]]
 
@@ -167,3 +170,86 @@ def contour_elements(
         if len(cuts) == 2:
             length += math.dist(*cuts)
     return length / math.exp(level)
+
+
+SELAFIN_POINTS = [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (0.0, 1.0)]
+SELAFIN_TRIANGLES = [(1, 2, 3), (1, 3, 4)]
+
+
+def selafin(
+    *,
+    double=False,
+    order=">",
+    date=False,
+    origin=(0, 0),
+    frames=2,
+    points=SELAFIN_POINTS,
+    corners=3,
+    planes=0,
+):
+    """Return a file as the TELEMAC manual lays it out, one struct at a time."""
+    real, n = ("d" if double else "f"), len(points)
+
+    def record(content: bytes) -> bytes:
+        return struct.pack(order + "i", len(content)) + content + struct.pack(order + "i", len(content))
+
+    def reals(values) -> bytes:
+        return record(struct.pack(f"{order}{len(values)}{real}", *values))
+
+    def integers(*values: int) -> bytes:
+        return record(struct.pack(f"{order}{len(values)}i", *values))
+
+    title = b"a basin".ljust(72) + (b"SERAFIND" if double else b"SERAFIN ")
+    parts = [record(title), integers(2, 0)]
+    parts += [record(b"BOTTOM".ljust(16) + b"M".ljust(16)), record(b"WATER DEPTH".ljust(16) + b"M".ljust(16))]
+    parts.append(integers(1, 0, *origin, 0, 0, planes, 0, 0, int(date)))
+    if date:
+        parts.append(integers(2020, 1, 2, 3, 4, 5))
+    parts += [
+        integers(len(SELAFIN_TRIANGLES), n, corners, 1),
+        integers(*[c for t in SELAFIN_TRIANGLES for c in t]),
+    ]
+    parts += [integers(1, 2, 3, 4), reals([x for x, _ in points]), reals([y for _, y in points])]
+    for frame in range(frames):
+        parts += [reals([60.0 * frame]), reals([-1.5] * n), reals([frame + 0.25 * k for k in range(n)])]
+    return b"".join(parts)
+
+
+def holds(triangle: Sequence[Sequence[float]], point: Sequence[float]) -> bool:
+    """Return True where a triangle of the plane, (3, 2), holds a point, by the signs of three areas."""
+    a, b, c = triangle
+    areas = [
+        (v[0] - u[0]) * (point[1] - u[1]) - (v[1] - u[1]) * (point[0] - u[0])
+        for u, v in ((a, b), (b, c), (c, a))
+    ]
+    return all(area >= 0 for area in areas) or all(area <= 0 for area in areas)
+
+
+def every_sequence(
+    widths: tuple[np.ndarray, np.ndarray], ends: tuple[int, int], length: float, *, blocks: int, most: int
+) -> list[tuple[int, int, tuple[int, ...]]] | None:
+    """Return blocks, iota+ and counts of all non-increasing sequences that fit a length; None beyond so many.
+
+    widths holds the smallest and the largest width of the strip between any two counts. Strip by strip, with
+    nothing left out but what is already too long or has more than the given blocks.
+    """
+    low, high = widths
+    fine, coarse = ends
+    pairs = [(m, n) for m in range(coarse, fine + 1) for n in range(coarse, m + 1) if low[m, n] <= length]
+    paths, sums = np.full((1, 1), fine), np.zeros((3, 1))  # lo, hi, blocks
+    found = []
+    while len(paths):
+        at = [np.flatnonzero(paths[:, -1] == m) for m in range(fine + 1)]
+        which = np.concatenate([np.zeros(0, int), *(at[m] for m, _ in pairs)])
+        below = np.concatenate([np.zeros(0, int), *(np.full(len(at[m]), n) for m, n in pairs)])
+        above = paths[which, -1]
+        sums = sums[:, which] + np.stack([low[above, below], high[above, below], above + below])
+        fits = (sums[0] <= length + 1e-12) & (sums[2] <= blocks)
+        paths, sums = np.column_stack([paths[which[fits]], below[fits]]), sums[:, fits]
+        ended = (paths[:, -1] == coarse) & (sums[1] >= length - 1e-12)
+        irregularities = np.diff(paths[ended][:, [0, *range(paths.shape[1]), -1]], n=2)
+        positive = np.maximum(irregularities, 0).sum(axis=1)
+        found += zip(sums[2, ended].astype(int), positive, map(tuple, paths[ended]), strict=True)
+        if max(len(paths), len(found)) > most:
+            return None
+    return found

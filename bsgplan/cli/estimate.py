@@ -20,7 +20,9 @@ def estimate(
     blocks: int | None = None,
     objective: str = "balanced",
     size: str | None = None,
+    size_file: Path | None = None,
     lonlat: Annotated[bool, Parameter(negative=(), show_default=False)] = False,
+    split_quads: Annotated[bool, Parameter(negative=(), show_default=False)] = False,
     region: Annotated[str | None, Parameter(allow_leading_hyphen=True)] = None,
     persistence: float = 1.3,
     plateau: float = 0.05,
@@ -46,8 +48,12 @@ def estimate(
         What patterns are chosen for: size, blocks, irregularity, quality or balanced.
     size
         A point or cell array of the file that holds the edge length wanted; default: the mesh's own edges.
+    size_file
+        Take the edge length wanted from this file: a Gmsh .pos, a Medit .sol, a JIGSAW grid or any mesh.
     lonlat
         The coordinates are degrees of longitude and latitude: plan on a conformal map, give metres.
+    split_quads
+        Split each quad into two triangles along its better diagonal, and plan them too.
     region
         Plan one region only: "POLYGON((..))", x0,y0,x1,y1 or a GeoJSON file, in the file's coordinates.
     persistence
@@ -80,15 +86,16 @@ def estimate(
     from .output import check_writable, show
     from .progress import stages
 
-    check_writable(save, figure, vtk, vtk_patterns, source=file)
+    check_writable(save, figure, vtk, vtk_patterns, sources=(file, size_file))
     check_suffixes(figure, vtk, vtk_patterns)
     with stages() as progress:
         progress("reading")
         result = plan_blocks(
-            open_mesh(file, is_lonlat=lonlat),
+            open_mesh(file, is_lonlat=lonlat, split_quads=split_quads),
             tris_per_block=sizes,
             n_blocks=blocks,
             size=size,
+            size_file=size_file,
             region=polygon,
             objective=objective,
             persistence=log(persistence),

@@ -29,17 +29,17 @@ def show(tables: Sequence[Table]) -> None:
     sys.stdout.write("\n\n".join(text(table) for table in tables) + "\n")
 
 
-def check_writable(*paths: Path | None, source: Path | None = None) -> None:
+def check_writable(*paths: Path | None, sources: Sequence[Path | None] = ()) -> None:
     """Raise OutputError for the first path that cannot be written, before any work is done.
 
-    InvalidOption where two outputs have one name, or one is the source.
+    InvalidOption where two outputs have one name, or one is a source.
     """
     given = [path for path in paths if path is not None]
     for k, path in enumerate(given):
         if path.resolve() in [other.resolve() for other in given[:k]]:
             raise InvalidOption(f"{path}: two outputs have this name; give each its own")
-        if source is not None and path.resolve() == source.resolve():
-            raise InvalidOption(f"{path}: is the mesh file itself; give the output another name")
+        if path.resolve() in [source.resolve() for source in sources if source is not None]:
+            raise InvalidOption(f"{path}: is a file that is read; give the output another name")
         folder = path.parent
         if path.is_dir():
             raise OutputError(f"{path}: is a folder; give a file name")

@@ -46,7 +46,8 @@ def pattern(
     """
     from ..io.vtk_cells import check_suffix
     from ..patterns import Pattern
-    from ..report.pattern_tables import check_pattern, pattern_document, pattern_tables
+    from ..report.pattern_document import check_pattern, pattern_document
+    from ..report.pattern_tables import pattern_tables
     from ..result import dumps
     from .output import check_writable, show
 
@@ -87,7 +88,7 @@ def _write_vtk(path: Path, wanted: Pattern, length: float | None, refine: int) -
     from ..io.vtk_cells import write_cells
     from ..patterns import best_length, best_spacing, realise, subdivide
     from ..patterns.frustum import pattern_qualities
-    from ..report.pattern_tables import moved_pattern, straight_shape
+    from ..report.pattern_document import moved_pattern, straight_shape
 
     shape = straight_shape(wanted, best_length(wanted).length if length is None else length)
     positions = best_spacing(wanted, shape).positions

@@ -49,7 +49,7 @@ def patterns(
     """
     from ..patterns import Pattern, length_of_layers, search
     from ..planning import check_block_size
-    from ..report.pattern_tables import patterns_document, patterns_table
+    from ..report.patterns_table import patterns_document, patterns_table
     from ..result import dumps
     from .output import show
 

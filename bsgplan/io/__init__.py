@@ -1,10 +1,11 @@
-"""Files: `read` makes a MeshFile, whatever the format; `write_fort14` gives it back to ADCIRC and SCHISM."""
+"""Files: `read` makes a MeshFile, whatever the format; `write` gives it back in any of them."""
 
 from .boundary import Boundary
 from .file import MeshFile
 from .fort14_write import write_fort14
 from .projection import Projection, looks_like_degrees, project
 from .read import read, read_lonlat
+from .write import write
 
 __all__ = [
     "Boundary",
@@ -14,5 +15,6 @@ __all__ = [
     "project",
     "read",
     "read_lonlat",
+    "write",
     "write_fort14",
 ]

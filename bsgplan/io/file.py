@@ -15,6 +15,7 @@ from ..arrays import Floats, Ints, frozen_floats, frozen_ints
 from ..errors import InvalidMesh, MeshReadError
 from ..mesh import Mesh, clean
 from ..mesh.check import is_planar
+from ..mesh.orient import runs_alike
 from .boundary import Boundary, n_nodes
 
 if TYPE_CHECKING:
@@ -30,11 +31,20 @@ class RawMesh:
     quads: Ints
     point_data: dict[str, Floats] = field(default_factory=dict)
     cell_data: dict[str, Floats] = field(default_factory=dict)
+    """Values at the triangles."""
+    quad_data: dict[str, Floats] = field(default_factory=dict)
+    """Values at the quads, where the reader has them."""
     boundaries: tuple[Boundary, ...] = ()
     ignored: dict[str, int] = field(default_factory=dict)
     """Cells of other types and how many."""
+    midside: Ints = field(default_factory=lambda: np.empty(0, dtype=np.int64))
+    """Points that cells of higher order have beside their corners."""
     notes: tuple[str, ...] = ()
     title: str = ""
+    cell_names: dict[str, dict[int, str]] = field(default_factory=dict)
+    """Names of the values of a cell array, by array and value."""
+    is_counting: bool = True
+    """False where the points are not numbered one by one in the order of the file."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,6 +75,21 @@ class MeshFile:
     """First line of a fort.14 file."""
     projection: Projection | None = None
     """The map from degrees to the plane of `mesh`; None where the file's own coordinates are kept."""
+    quad_nodes: Ints = field(default_factory=lambda: np.empty(0, dtype=np.int64))
+    """Index in the points of the mesh of each quad point, (n_quad_points,); -1 where no triangle has it."""
+    quad_point_data: dict[str, Floats] = field(default_factory=dict)
+    """Values at the points of the quads by name, (n_quad_points, ...)."""
+    all_boundaries: tuple[Boundary, ...] = ()
+    """The boundaries of triangles and quads together: points of quads alone follow those of the mesh,
+    in the order of `quad_points`. Empty where there are no quads: then `boundaries` says it all."""
+    kept_points: Ints = field(default_factory=lambda: np.empty(0, dtype=np.int64))
+    """Place in the file of each point, (n_points,), counted from 0."""
+    n_file_points: int = 0
+    """Points in the file, used or not."""
+    cell_names: dict[str, dict[int, str]] = field(default_factory=dict)
+    """Names of the values of a cell array (physical groups, materials), by array and value."""
+    is_renumbered: bool = False
+    """True where the points are not numbered as in the file: dropped ones, or numbers in another order."""
 
     def __repr__(self) -> str:
         return f"MeshFile({self.path!r}, {self.format}, {self.mesh!r})"
@@ -89,9 +114,10 @@ class MeshFile:
 def assemble(path: str, format: str, raw: RawMesh, projection: Projection | None = None) -> MeshFile:
     """Return the cleaned MeshFile of what a reader found; data and boundaries follow their points."""
     if not len(raw.triangles):
-        raise MeshReadError(f"{path}: no triangles, it holds {_contents(raw)}; give a mesh of triangles")
+        remedy = "split its quads with --split-quads" if len(raw.quads) else "give a mesh of triangles"
+        raise MeshReadError(f"{path}: no triangles, it holds {_contents(raw)}; {remedy}")
     try:
-        _check_quads(raw)
+        check_quads(raw)
         cleaned = clean(raw.points, raw.triangles)
         _check_duplicates(cleaned.mesh)
     except InvalidMesh as error:
@@ -100,18 +126,29 @@ def assemble(path: str, format: str, raw: RawMesh, projection: Projection | None
     new_index = np.full(len(raw.points), -1, dtype=np.int64)
     new_index[cleaned.kept_points] = np.arange(len(cleaned.kept_points))
     boundaries = tuple(boundary.renumbered(new_index) for boundary in raw.boundaries)
-    quad_points, quads = _quads_apart(raw)
-    n_unused = len(raw.points) - len(np.union1d(cleaned.kept_points, raw.quads.ravel()))
+    quad_points, quads, used = quads_apart(raw)
+    is_own = new_index[used] < 0
+    all_index = new_index.copy()
+    all_index[used[is_own]] = len(cleaned.kept_points) + np.arange(np.count_nonzero(is_own))
+    n_unused = len(raw.points) - len(
+        np.unique(np.concatenate([cleaned.kept_points, raw.quads.ravel(), raw.midside]))
+    )
     n_lost = n_nodes(raw.boundaries) - n_nodes(boundaries)
     n_coincident = _n_coincident(cleaned.mesh.points)
     n_flipped = cleaned.n_flipped
+    turned = "clockwise triangle{} turned counter-clockwise"
+    if not cleaned.mesh.is_planar:
+        turned = "triangle{} turned to run as the others of the surface"
+    n_folds = int(np.count_nonzero(runs_alike(cleaned.mesh.topology))) if cleaned.mesh.is_planar else 0
     told = {
-        f"{n_flipped} clockwise triangle{_s(n_flipped)} turned counter-clockwise": n_flipped,
+        "cells of higher order are taken by their corners": len(raw.midside),
+        f"{n_flipped} {turned.format(_s(n_flipped))}": n_flipped,
+        f"{n_folds} edge{_s(n_folds)} with both triangles on one side: the mesh is folded there": n_folds,
         f"{n_unused} point{_s(n_unused)} of no cell dropped": n_unused,
         f"{n_lost} boundary entries dropped, their points are in no triangle": n_lost,
         "constant third coordinate dropped": cleaned.is_flattened,
         f"{n_coincident} points coincide with another point; they stay apart, none was merged": n_coincident,
-        f"{len(quads)} quad{_s(len(quads))} left out of the plan, measured apart": len(quads),
+        f"{len(quads)} quad{_s(len(quads))} measured apart; --split-quads makes them triangles": len(quads),
     }
     return MeshFile(
         path=path,
@@ -119,6 +156,9 @@ def assemble(path: str, format: str, raw: RawMesh, projection: Projection | None
         mesh=cleaned.mesh,
         quads=frozen_ints(quads),
         quad_points=frozen_floats(quad_points),
+        quad_nodes=frozen_ints(new_index[used]),
+        all_boundaries=tuple(b.renumbered(all_index) for b in raw.boundaries) if len(quads) else (),
+        quad_point_data={name: frozen_floats(v[used]) for name, v in raw.point_data.items()},
         point_data={name: frozen_floats(v[cleaned.kept_points]) for name, v in raw.point_data.items()},
         cell_data={name: frozen_floats(v) for name, v in raw.cell_data.items()},
         boundaries=boundaries,
@@ -126,6 +166,10 @@ def assemble(path: str, format: str, raw: RawMesh, projection: Projection | None
         notes=(*raw.notes, *(sentence for sentence, happened in told.items() if happened)),
         title=raw.title,
         projection=projection,
+        kept_points=frozen_ints(cleaned.kept_points),
+        n_file_points=len(raw.points),
+        cell_names={name: dict(names) for name, names in raw.cell_names.items()},
+        is_renumbered=not raw.is_counting or len(cleaned.kept_points) < len(raw.points),
     )
 
 
@@ -138,7 +182,8 @@ def _all_used(raw: RawMesh) -> bool:
     return len(np.unique(raw.triangles)) == len(raw.points)
 
 
-def _check_quads(raw: RawMesh) -> None:
+def check_quads(raw: RawMesh) -> None:
+    """Raise InvalidMesh where a quad names a point that is not there."""
     is_bad = ((raw.quads < 0) | (raw.quads >= len(raw.points))).any(axis=1)
     if is_bad.any():
         first = int(np.flatnonzero(is_bad)[0])
@@ -157,12 +202,14 @@ def _check_duplicates(mesh: Mesh) -> None:
         )
 
 
-def _quads_apart(raw: RawMesh) -> tuple[Floats, Ints]:
+def quads_apart(raw: RawMesh) -> tuple[Floats, Ints, Ints]:
+    """Return points of the quads, (n, 2 or 3), the quads, (n_quads, 4), by them, and their places, (n,)."""
+    check_quads(raw)
     used, quads = np.unique(raw.quads, return_inverse=True)
     points = raw.points[used]
     if len(used) and points.shape[1] == 3 and is_planar(points):
         points = points[:, :2]
-    return points, quads.reshape(-1, 4).astype(np.int64)
+    return points, quads.reshape(-1, 4).astype(np.int64), used.astype(np.int64)
 
 
 def _n_coincident(points: Floats) -> int:

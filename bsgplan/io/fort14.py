@@ -78,6 +78,7 @@ def read_fort14(path: Path) -> RawMesh:
         boundaries=boundaries,
         ignored={"quad": len(quads)} if len(quads) else {},
         title=lines[0].decode("utf-8", "replace").strip(),
+        is_counting=numbers.is_counting,
     )
 
 

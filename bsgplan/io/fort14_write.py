@@ -8,46 +8,46 @@ from pathlib import Path
 
 import numpy as np
 
-from ..arrays import Floats
 from ..atomic import replacing
 from ..errors import OutputError
 from .boundary import Boundary, n_nodes
 from .file import MeshFile
+from .text_write import counting, table_lines
+from .whole import WholeMesh, warn_of_losses, whole_mesh
 
 
-def write_fort14(path: str | os.PathLike[str], mesh_file: MeshFile) -> None:
-    """Write nodes, depth, triangles and the open and land boundaries; coordinates to the last bit.
+def write_fort14(mesh_file: MeshFile, path: str | os.PathLike[str]) -> None:
+    """Write nodes, depth, triangles, quads and the open and land boundaries; coordinates to the last bit.
 
-    A projected mesh is written in degrees. Depth is the point array of that name, else 0. The file
-    appears whole or not at all; raises OutputError when it cannot be written.
+    A projected mesh is written in degrees. Depth is the point array of that name, else 0. Quads, which SCHISM
+    reads and ADCIRC does not, follow the triangles. What has no place is named in a warning. The file appears
+    whole or not at all; raises OutputError when it cannot be written.
     """
     target = Path(path)
-    if len(mesh_file.quads):
-        raise OutputError(
-            f"{target}: the mesh has {len(mesh_file.quads)} quads, which are not written; split them first"
-        )
     if not mesh_file.mesh.is_planar:
         raise OutputError(f"{target}: the mesh is a surface in space, a fort.14 is planar; write VTK instead")
+    warn_of_losses(path, mesh_file, point_data=("depth",), boundaries=("open", "land"), has_barriers=True)
+    text = _text(mesh_file, whole_mesh(mesh_file))
     with replacing(target) as temporary, temporary.open("w", encoding="utf-8", newline="\n") as stream:
-        stream.writelines(line + "\n" for line in _lines(mesh_file))
+        stream.writelines(text)
 
 
-def _lines(mesh_file: MeshFile) -> Iterator[str]:
-    mesh = mesh_file.mesh
-    points = mesh.points if mesh_file.projection is None else mesh_file.projection.to_degrees(mesh.points)
-    depth = _depth(mesh_file)
-    yield " ".join(mesh_file.title.splitlines()) or "mesh"
-    yield f"{mesh.n_triangles} {mesh.n_points}"
-    for i, ((x, y), z) in enumerate(zip(points.tolist(), depth.tolist(), strict=True), 1):
-        yield f"{i} {x!r} {y!r} {z!r}"
-    for i, (a, b, c) in enumerate((mesh.triangles + 1).tolist(), 1):
-        yield f"{i} 3 {a} {b} {c}"
+def _text(mesh_file: MeshFile, whole: WholeMesh) -> Iterator[str]:
+    n_points, n_triangles, n_quads = len(whole.points), len(whole.triangles), len(whole.quads)
+    depth = whole.point_data.get("depth")
+    if depth is None or depth.ndim != 1:
+        depth = np.zeros(n_points)
+    yield (" ".join(mesh_file.title.splitlines()) or "mesh") + "\n"
+    yield f"{n_triangles + n_quads} {n_points}\n"
+    yield from table_lines("%d %r %r %r\n", counting(n_points), whole.points, depth)
+    yield from table_lines("%d 3 %d %d %d\n", counting(n_triangles), whole.triangles + 1)
+    yield from table_lines("%d 4 %d %d %d %d\n", counting(n_quads, n_triangles + 1), whole.quads + 1)
     for kind in ("open", "land"):
-        segments = tuple(boundary for boundary in mesh_file.boundaries if boundary.kind == kind)
-        yield f"{len(segments)} = Number of {kind} boundaries"
-        yield f"{n_nodes(segments)} = Total number of {kind} boundary nodes"
+        segments = tuple(boundary for boundary in whole.boundaries if boundary.kind == kind)
+        yield f"{len(segments)} = Number of {kind} boundaries\n"
+        yield f"{n_nodes(segments)} = Total number of {kind} boundary nodes\n"
         for number, segment in enumerate(segments, 1):
-            yield from _segment(segment, number)
+            yield from (line + "\n" for line in _segment(segment, number))
 
 
 def _segment(segment: Boundary, number: int) -> Iterator[str]:
@@ -58,8 +58,3 @@ def _segment(segment: Boundary, number: int) -> Iterator[str]:
     columns = np.empty((segment.n_nodes, 0)) if segment.columns is None else segment.columns
     for nodes, values in zip((np.column_stack(ids) + 1).tolist(), columns.tolist(), strict=True):
         yield " ".join([*map(str, nodes), *map(repr, values)])
-
-
-def _depth(mesh_file: MeshFile) -> Floats:
-    depth = mesh_file.point_data.get("depth")
-    return np.zeros(mesh_file.mesh.n_points) if depth is None or depth.ndim != 1 else depth

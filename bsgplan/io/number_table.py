@@ -36,17 +36,24 @@ def number_table(
 
 
 def _exact(lines: Sequence[bytes], n_columns: int) -> Floats | None:
-    """Return the table if every line holds n_columns numbers and nothing else."""
-    text = b" nan\n".join(lines) + b" nan"  # the nan at each line's end proves that no line lends to the next
+    return table_of_text(b"\n".join(lines) + b"\n", len(lines), n_columns)
+
+
+def table_of_text(text: bytes, n_lines: int, n_columns: int) -> Floats | None:
+    """Return the table of lines that each hold n_columns numbers and nothing else; None for any other text.
+
+    Each line ends in a newline. NaN passes as a number.
+    """
+    text = text.replace(b"\n", b" nan\n")  # a nan at each line's end proves that no line lends to the next
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         try:
             values = np.fromstring(text, dtype=np.float64, sep=" ")  # type: ignore[arg-type, unused-ignore]
         except (DeprecationWarning, ValueError):
             return None
-    if values.size != len(lines) * (n_columns + 1) or _n_words(text) != values.size:
+    if values.size != n_lines * (n_columns + 1) or _n_words(text) != values.size:
         return None
-    table: Floats = values.reshape(len(lines), n_columns + 1)
+    table: Floats = values.reshape(n_lines, n_columns + 1)
     return table[:, :-1] if np.isnan(table[:, -1]).all() else None
 
 

@@ -7,40 +7,53 @@ from pathlib import Path
 
 from ..errors import BsgplanError, InvalidMesh, MeshReadError
 from .file import MeshFile, RawMesh, assemble
-from .fort14 import read_fort14
 from .projection import project_raw
 from .sniff import sniff
+from .split import split
 
 
-def read(path: str | os.PathLike[str]) -> MeshFile:
+def read(path: str | os.PathLike[str], *, split_quads: bool = False) -> MeshFile:
     """Return the mesh of a file with its data and boundaries, in the file's own coordinates.
 
-    Raises MeshReadError where the file cannot be read and InvalidMesh where its triangles are no mesh.
+    Quads are measured apart, or split into triangles. Raises MeshReadError where the file cannot be read
+    and InvalidMesh where its triangles are no mesh.
     """
-    file_format, raw = _raw(Path(path))
-    return assemble(os.fspath(path), file_format, raw)
+    file_format, raw = read_raw(path)
+    return assembled(path, file_format, raw, split_quads=split_quads)
 
 
-def read_lonlat(path: str | os.PathLike[str]) -> MeshFile:
+def read_lonlat(path: str | os.PathLike[str], *, split_quads: bool = False) -> MeshFile:
     """Return the mesh of a file in degrees of longitude and latitude, projected to metres of a plane."""
-    file_format, raw = _raw(Path(path))
-    if not len(raw.triangles):
-        return assemble(os.fspath(path), file_format, raw)  # raises, and says what there is
+    file_format, raw = read_raw(path)
+    return assembled(path, file_format, raw, is_lonlat=True, split_quads=split_quads)
+
+
+def assembled(
+    path: str | os.PathLike[str],
+    file_format: str,
+    raw: RawMesh,
+    *,
+    is_lonlat: bool = False,
+    split_quads: bool = False,
+) -> MeshFile:
+    """Return the MeshFile of what stands in a file, projected and with its quads split if asked."""
+    projection = None
     try:
-        planar, projection = project_raw(raw)
+        if is_lonlat and (len(raw.triangles) or len(raw.quads)):
+            raw, projection = project_raw(raw)
+        if split_quads:
+            raw = split(raw)
     except InvalidMesh as error:
         raise InvalidMesh(f"{os.fspath(path)}: {error}") from None
-    return assemble(os.fspath(path), file_format, planar, projection)
+    return assemble(os.fspath(path), file_format, raw, projection)
 
 
-def _raw(path: Path) -> tuple[str, RawMesh]:
+def read_raw(path: str | os.PathLike[str]) -> tuple[str, RawMesh]:
+    """Return the format of a file and what stands in it, before any clean-up."""
+    path = Path(path)
     file_format = sniff(path)
     try:
-        if file_format == "fort.14":
-            return file_format, read_fort14(path)
-        from .through_meshio import read_through_meshio
-
-        return file_format, read_through_meshio(path, file_format)
+        return file_format.name, file_format.read(path)
     except BsgplanError as error:
         raise MeshReadError(f"{path}: {error}") from None
     except OSError as error:

@@ -9,68 +9,52 @@ import re
 from pathlib import Path
 
 from ..errors import MeshReadError
+from .formats import BY_NAME, BY_SUFFIX, Format
 
 HEAD = 4096
 """Bytes looked at: every signature below stands in the first few lines."""
 
 OTHER_FORMATS = {
-    "Gmsh 1.0": "open it in Gmsh and save it as MSH 2.2 or 4.1",
-    "JIGSAW": "save it as .vtk from JIGSAW (savevtk) and give that",
-    "MFEM": "save it as VTK from MFEM (mesh.PrintVTK) and give that",
-    "SMS 2dm": "export it as fort.14 (or .gr3) from SMS or QGIS and give that",
-    "Triangle .node/.ele": "convert it to .off or .vtk and give that",
-    "netCDF": "convert it to .vtu with meshio or xugrid and give that",
-    "Selafin": "convert it to .vtk (TELEMAC run_telfile.py, or BlueKenue as .2dm) and give that",
-    "VTK PolyData": "save it as an unstructured grid (.vtu) and give that",
-    "HDF5": "convert it to .vtu with `meshio convert` and give that",
+    "polydata": ("VTK PolyData", "save it as an unstructured grid (.vtu) and give that"),
+    "hdf5": ("HDF5", "convert it to .vtu with `meshio convert` and give that"),
 }
-"""Formats that are recognised but not read yet, and the way round."""
+"""Formats that are recognised but not read, what they are called, and the way round."""
 
 SIGNATURES: tuple[tuple[bytes, str], ...] = (
-    (rb"\s*\$NOD\b", "Gmsh 1.0"),
+    (rb"\s*\$NOD\b", "gmsh1"),
     (rb"\s*\$(MeshFormat|Comments)\b", "gmsh"),
-    (rb"(\s*#[^\n]*\n)*\s*mshid\s*=", "JIGSAW"),
-    (rb"MFEM (NC |NURBS )?mesh", "MFEM"),
+    (rb"(\s*#[^\n]*\n)*\s*(?i:mshid)\s*=", "jigsaw"),
+    (rb"MFEM (NC |NURBS |INLINE )?mesh", "mfem"),
     (rb"(\s*#[^\n]*\n)*\s*MeshVersionFormatted\b", "medit"),
-    (rb"MESH2D\b", "SMS 2dm"),
+    (rb"MESH2D\b", "2dm"),
     (rb"(\s*%[^\n]*\n|\s*\n)*\s*(NZONE|NDIME|NELEM|NPOIN|IZONE|NMARK)\s*=", "su2"),
     (rb"(\s*#[^\n]*\n)*\s*OFF\b", "off"),
     (rb"ply\r?\n", "ply"),
     (rb"# vtk DataFile", "vtk"),
     (rb"(\s*<\?xml[^>]*>)?(\s*<!--.*?-->)*\s*<VTKFile[^>]*type=[\"']UnstructuredGrid", "vtu"),
-    (rb"(\s*<\?xml[^>]*>)?(\s*<!--.*?-->)*\s*<VTKFile", "VTK PolyData"),
+    (rb"(\s*<\?xml[^>]*>)?(\s*<!--.*?-->)*\s*<VTKFile", "polydata"),
     (rb"(\s*<\?xml[^>]*>)?(\s*<!.*?>)*\s*<Xdmf\b", "xdmf"),
     (rb"(\s*<\?xml[^>]*>)?(\s*<!--.*?-->)*\s*<dolfin\b", "dolfin"),
-    (rb"CDF[\x01\x02\x05]", "netCDF"),
-    (rb"\x89HDF\r\n\x1a\n", "HDF5"),
-    (rb"\x00\x00\x00\x50.{80}\x00\x00\x00\x50", "Selafin"),
+    (rb"CDF[\x01\x02\x05]", "netcdf"),
+    (rb"\x89HDF\r\n\x1a\n", "hdf5"),
+    (rb"\x00\x00\x00\x50.{80}\x00\x00\x00\x50|\x50\x00\x00\x00.{80}\x50\x00\x00\x00", "selafin"),
     (rb"(#[^\n]*\n|\s*\n)*(mesh3d|csg2d|csg3d)\b", "netgen"),
     (rb"\s*\(\s*[01]\s+\"", "ansys"),
 )
 """Patterns at the start of a file and the format that each gives away, tried in this order."""
-SPANNING = ("Selafin", "vtu", "VTK PolyData", "dolfin", "xdmf")
+SPANNING = ("selafin", "vtu", "polydata", "dolfin", "xdmf")
 """Formats whose pattern has a dot that may run over a line's end."""
 FORT14 = rb"[^\n]*\n[ \t]*\d+[ \t]+\d+\b[^\n]*\n[ \t]*\d+([ \t]+[-+]?[\d.]+([EeDd][-+]?\d+)?){3}"
 """A title, two counts, then a node: too weak a sign against a suffix that says otherwise."""
 
-SUFFIXES = {
-    ".msh": "gmsh", ".14": "fort.14", ".grd": "fort.14", ".gr3": "fort.14", ".ll": "fort.14",
-    ".su2": "su2", ".mesh": "medit", ".meshb": "medit", ".vtk": "vtk", ".vtu": "vtu", ".off": "off",
-    ".obj": "obj", ".stl": "stl", ".ply": "ply", ".inp": "abaqus", ".avs": "avsucd", ".bdf": "nastran",
-    ".nas": "nastran", ".fem": "nastran", ".dat": "tecplot", ".tec": "tecplot", ".vol": "netgen",
-    ".xml": "dolfin", ".xdmf": "xdmf", ".xmf": "xdmf", ".mdpa": "mdpa", ".post": "permas",
-    ".f3grid": "flac3d", ".wkt": "wkt", ".med": "med", ".h5m": "h5m", ".cgns": "cgns",
-    ".e": "exodus", ".exo": "exodus", ".ex2": "exodus", ".ugrid": "ugrid", ".2dm": "SMS 2dm",
-    ".node": "Triangle .node/.ele", ".ele": "Triangle .node/.ele", ".nc": "netCDF",
-    ".slf": "Selafin", ".vtp": "VTK PolyData",
-}  # fmt: skip
-"""Format by suffix, for files whose first bytes do not tell."""
+SUFFIXES = {".vtp": "polydata"}
+"""Suffixes of formats that are recognised only, beside those of the registry."""
 
-CONTAINERS = {"HDF5": ("med", "h5m", "cgns", "exodus", "netCDF"), "netCDF": ("exodus",)}
+CONTAINERS = {"hdf5": ("med", "h5m", "cgns", "exodus", "netcdf"), "netcdf": ("exodus",)}
 """Formats that live inside another one: there the suffix decides."""
 
 
-def sniff(path: Path) -> str:
+def sniff(path: Path) -> Format:
     """Return the format of a file that can be read; raise MeshReadError where it cannot."""
     try:
         with path.open("rb") as stream:
@@ -94,8 +78,9 @@ def sniff(path: Path) -> str:
             "convert it to Gmsh, VTK or fort.14"
         )
     if found in OTHER_FORMATS:
-        raise MeshReadError(f"{path}: {found} files are not read yet; {OTHER_FORMATS[found]}")
-    return found
+        called, remedy = OTHER_FORMATS[found]
+        raise MeshReadError(f"{path}: {called} files are not read; {remedy}")
+    return BY_NAME[found]
 
 
 def format_of(head: bytes, name: str) -> str | None:
@@ -104,7 +89,8 @@ def format_of(head: bytes, name: str) -> str | None:
     >>> format_of(b"OFF\n3 1 0\n", "surface.msh")
     'off'
     """
-    by_suffix = SUFFIXES.get(Path(name.lower()).suffix)
+    suffix = Path(name.lower()).suffix
+    by_suffix = BY_SUFFIX[suffix].name if suffix in BY_SUFFIX else SUFFIXES.get(suffix)
     head = head.removeprefix(b"\xef\xbb\xbf")
     for pattern, found in SIGNATURES:
         if re.match(pattern, head, re.DOTALL if found in SPANNING else 0):

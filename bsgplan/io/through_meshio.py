@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import importlib
 import io
-import re
 import types
 import warnings
 from collections.abc import Iterable
@@ -21,14 +20,16 @@ from .file import RawMesh
 
 CORNERS = (("triangle", 3), ("quad", 4), ("VTK_LAGRANGE_TRIANGLE", 3), ("VTK_LAGRANGE_QUADRILATERAL", 4))
 """Cell types, by how their name begins, that are taken by their first corners: higher orders too."""
-HIDDEN_ARRAYS = ("gmsh:dim_tags", "su2:tag")
+HIDDEN_ARRAYS = ("gmsh:dim_tags",)
 """Book-keeping of a reader, of no use as data."""
-PARTIAL_TAGS = "physical groups or data cover a part of the cells only; those arrays were left out"
+LINE_TAGS = ("gmsh:physical", "medit:ref")
+"""Arrays that hold the number of the boundary at line cells."""
+PARTIAL_TAGS = "physical groups cover a part of the cells only; gmsh:physical is 0 at the others"
+PARTIAL_DATA = "data cover a part of the points or cells only; those arrays were left out"
 
 
 def read_through_meshio(path: Path, file_format: str) -> RawMesh:
     """Return what meshio's reader of that format finds in a file."""
-    markers = _su2_markers(path) if file_format == "su2" else {}
     with (
         warnings.catch_warnings(),
         contextlib.redirect_stdout(io.StringIO()),
@@ -37,7 +38,7 @@ def read_through_meshio(path: Path, file_format: str) -> RawMesh:
         warnings.simplefilter("ignore")
         try:
             found, notes = _read_gmsh(path) if file_format == "gmsh" else (_read(path, file_format), ())
-            return _converted(found, notes, markers)
+            return _converted(found, notes)
         except BsgplanError:
             raise
         except ModuleNotFoundError as error:
@@ -46,7 +47,7 @@ def read_through_meshio(path: Path, file_format: str) -> RawMesh:
             ) from None
         except (Exception, SystemExit) as error:  # readers raise anything, and exit
             raise MeshReadError(
-                f"not readable as {file_format} ({_reason(error)}); check or convert it"
+                f"not readable as {file_format} ({reason(error)}); check or convert it"
             ) from None
 
 
@@ -63,30 +64,45 @@ def _read_gmsh(path: Path) -> tuple[Any, tuple[str, ...]]:
     except ValueError as error:  # meshio refuses tags or data that only some of the cells carry
         if "ata" not in str(error):
             raise
-    from meshio.gmsh import _gmsh41
+    from meshio.gmsh import _gmsh22, _gmsh41
     from meshio.gmsh.main import _read_header
 
-    reader = _gmsh41.read_buffer
-    lenient = types.FunctionType(reader.__code__, {**reader.__globals__, "Mesh": _mesh_without_partial_data})
+    notes: list[str] = []
+
+    def read_entities(*arguments: Any) -> Any:
+        physical_tags, bounding_entities = _gmsh41._read_entities(*arguments)
+        tags = [list(of_entity.values()) for of_entity in physical_tags]
+        if any(any(t) for t in tags) and not all(all(t) for t in tags):
+            notes.append(PARTIAL_TAGS)
+        tagged = tuple({e: t or [0] for e, t in of_entity.items()} for of_entity in physical_tags)
+        return tagged, bounding_entities
+
+    def cell_data_by_block(cells: Any, arrays: Any) -> Any:
+        lengths = [len(cell[1]) if isinstance(cell, tuple) else len(cell) for cell in cells]
+        whole = {name: values for name, values in arrays.items() if len(values) == sum(lengths)}
+        if len(whole) < len(arrays):
+            notes.append(PARTIAL_DATA)
+        return {name: np.split(values, np.cumsum(lengths)[:-1]) for name, values in whole.items()}
+
+    def mesh_of_whole_data(points: Any, cells: Any, **data: Any) -> Any:
+        whole = {name: values for name, values in data["point_data"].items() if len(values) == len(points)}
+        if len(whole) < len(data["point_data"]):
+            notes.append(PARTIAL_DATA)
+        return meshio.Mesh(points, cells, **{**data, "point_data": whole, "cell_sets": None})
+
     with path.open("rb") as stream:
         while stream.readline().strip() != b"$MeshFormat":
             pass
         version, data_size, is_ascii = _read_header(stream)
-        if not version.startswith("4"):
-            raise MeshReadError("data cover a part of the points or cells only; save them for all of them")
-        return lenient(stream, is_ascii, data_size), (PARTIAL_TAGS,)
+        reader = (_gmsh22 if version.startswith("2") else _gmsh41).read_buffer
+        own = {"cell_data_from_raw": cell_data_by_block, "Mesh": mesh_of_whole_data}
+        if "_read_entities" in reader.__globals__:
+            own["_read_entities"] = read_entities
+        lenient = types.FunctionType(reader.__code__, {**reader.__globals__, **own})
+        return lenient(stream, is_ascii, data_size), tuple(dict.fromkeys(notes))
 
 
-def _mesh_without_partial_data(points: Any, cells: Any, **data: Any) -> Any:
-    import meshio
-
-    data["point_data"] = {n: v for n, v in data["point_data"].items() if len(v) == len(points)}
-    data["cell_data"] = {n: v for n, v in data["cell_data"].items() if len(v) == len(cells)}
-    data["cell_sets"] = None
-    return meshio.Mesh(points, cells, **data)
-
-
-def _converted(found: Any, notes: Iterable[str], markers: dict[int, str]) -> RawMesh:
+def _converted(found: Any, notes: Iterable[str]) -> RawMesh:
     points = np.asarray(found.points, dtype=np.float64)
     if points.ndim != 2 or points.shape[1] not in (2, 3):
         raise MeshReadError(f"points have shape {points.shape}, not 2 or 3 coordinates; check the file")
@@ -96,21 +112,19 @@ def _converted(found: Any, notes: Iterable[str], markers: dict[int, str]) -> Raw
         if n_corners != 3 and len(block.data):
             name = "quad" if n_corners == 4 else block.type
             ignored[name] = ignored.get(name, 0) + len(block.data)
-    cell_data = {
-        name: _floats(np.concatenate([np.asarray(v) for v, n in zip(values, corners, strict=True) if n == 3]))
-        for name, values in found.cell_data.items()
-        if 3 in corners and name not in HIDDEN_ARRAYS
-    }
     point_data = {name: _floats(v) for name, v in found.point_data.items() if name not in HIDDEN_ARRAYS}
     return RawMesh(
         points=points,
         triangles=_cells(found, corners, 3),
         quads=_cells(found, corners, 4),
         point_data={name: values for name, values in point_data.items() if values is not None},
-        cell_data={name: values for name, values in cell_data.items() if values is not None},
-        boundaries=_named_lines(found, markers),
+        cell_data=_cell_data(found, corners, 3),
+        quad_data=_cell_data(found, corners, 4),
+        boundaries=_named_lines(found),
         ignored=ignored,
+        midside=_midside(found, corners),
         notes=tuple(notes),
+        cell_names={"gmsh:physical": names} if (names := _groups(found, 2)) else {},
     )
 
 
@@ -126,52 +140,58 @@ def _cells(found: Any, corners: list[int], n_corners: int) -> Ints:
     return np.concatenate([np.empty((0, n_corners), dtype=np.int64), *blocks]).astype(np.int64)
 
 
+def _cell_data(found: Any, corners: list[int], n_corners: int) -> dict[str, Floats]:
+    """Return the values at triangles or quads by name, in the order of `_cells`."""
+    result = {}
+    for name, values in found.cell_data.items():
+        parts = [np.asarray(v) for v, n in zip(values, corners, strict=True) if n == n_corners]
+        if parts and name not in HIDDEN_ARRAYS and (array := _floats(np.concatenate(parts))) is not None:
+            result[name] = array
+    return result
+
+
+def _midside(found: Any, corners: list[int]) -> Ints:
+    """Return the points that triangles and quads of higher order have beside their corners, each once."""
+    beside = [
+        np.asarray(b.data)[:, n:].ravel() for b, n in zip(found.cells, corners, strict=True) if n in (3, 4)
+    ]
+    return np.unique(np.concatenate([np.empty(0, dtype=np.int64), *beside])).astype(np.int64)
+
+
 def _floats(values: Any) -> Floats | None:
     array = np.asarray(values)
     return array.astype(np.float64) if array.dtype.kind in "fiub" else None
 
 
-def _named_lines(found: Any, markers: dict[int, str]) -> tuple[Boundary, ...]:
-    """Return one boundary for each tag of the line cells: its points, each once, sorted."""
-    groups = {
-        int(pair[0]): name for name, pair in found.field_data.items() if np.size(pair) == 2 and pair[1] == 1
+def _groups(found: Any, dimension: int) -> dict[int, str]:
+    """Return the names of the physical groups of one dimension by their tags."""
+    return {
+        int(pair[0]): name
+        for name, pair in found.field_data.items()
+        if np.size(pair) == 2 and pair[1] == dimension
     }
-    names = markers or groups
-    nodes_of: dict[int, list[Ints]] = {}
-    all_tags = found.cell_data.get("su2:tag") or found.cell_data.get("gmsh:physical") or []
+
+
+def _named_lines(found: Any) -> tuple[Boundary, ...]:
+    """Return one boundary for each tag of the line cells but 0, which means none."""
+    names = _groups(found, 1)
+    edges_of: dict[int, list[Ints]] = {}
+    all_tags: Any = next((found.cell_data[name] for name in LINE_TAGS if name in found.cell_data), [])
     for block, tags in zip(found.cells, all_tags, strict=False):
         if block.type.startswith("line"):
+            edges = np.asarray(block.data)[:, :2].astype(np.int64)
             for tag in np.unique(tags).tolist():
-                nodes_of.setdefault(int(tag), []).append(
-                    np.asarray(block.data)[np.asarray(tags) == tag, :2].ravel()
-                )
+                edges_of.setdefault(int(tag), []).append(edges[np.asarray(tags) == tag])
+    joined = {tag: np.concatenate(edges) for tag, edges in sorted(edges_of.items())}
     return tuple(
-        Boundary("named", np.unique(np.concatenate(nodes)).astype(np.int64), tag, names.get(tag, ""))
-        for tag, nodes in sorted(nodes_of.items())
-        if (np.concatenate(nodes) < len(found.points)).all()
+        Boundary("named", np.unique(edges), tag, names.get(tag, ""), edges=edges)
+        for tag, edges in joined.items()
+        if (tag or tag in names) and (edges < len(found.points)).all()
     )
 
 
-def _su2_markers(path: Path) -> dict[int, str]:
-    """Return the marker names of an SU2 file by the tags that meshio counts up for them.
-
-    Raises MeshReadError where it has several zones, of which meshio would mix the points.
-    """
-    text = path.read_text(encoding="utf-8", errors="replace")
-    zones = re.search(r"^\s*NZONE\s*=\s*(\d+)", text, re.MULTILINE)
-    if zones and int(zones[1]) > 1:
-        raise MeshReadError(
-            f"{zones[1]} zones, each with its own points; save one zone to a file of its own and give that"
-        )
-    names: dict[int, str] = {}
-    tag = 0
-    for name in re.findall(r"^\s*MARKER_TAG\s*=\s*(\S+)", text, re.MULTILINE):
-        tag = int(name) if re.fullmatch(r"[-+]?\d+", name) else tag + 1
-        names[tag] = name
-    return names
-
-
-def _reason(error: BaseException) -> str:
+def reason(error: BaseException) -> str:
+    """Return what an exception of meshio says in one short line, else its name."""
     text = " ".join(str(error).split())
     if isinstance(error, SystemExit) or not text:
         return type(error).__name__

@@ -12,7 +12,7 @@ import numpy as np
 from ..arrays import Floats, Ints
 from .check import check_shapes, is_planar
 from .mesh import Mesh
-from .quality import signed_areas
+from .orient import turned_in_plane, turned_in_space
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,7 +23,7 @@ class Cleaned:
     kept_points: Ints
     """Index in the raw points of each point of the mesh, (n_points,)."""
     n_flipped: int
-    """Triangles that were clockwise and have been turned."""
+    """Triangles turned: the clockwise of the plane; on a surface those against most of their component."""
     n_unused: int
     """Raw points of no triangle, dropped."""
     is_flattened: bool
@@ -33,8 +33,8 @@ class Cleaned:
 def clean(points: Floats, triangles: Ints) -> Cleaned:
     """Return the mesh of raw points, (n, 2 or 3), and triangles, (m, 3) in any orientation.
 
-    Points of no triangle are dropped, a constant third coordinate too, clockwise triangles of the plane
-    are turned. Raises InvalidMesh when what remains is no mesh.
+    Points of no triangle are dropped, a constant third coordinate too; triangles are turned to run one way.
+    Raises InvalidMesh when what remains is no mesh, or a surface of one side.
     """
     points, triangles = np.asarray(points, dtype=np.float64), np.asarray(triangles, dtype=np.int64)
     check_shapes(points, triangles)
@@ -47,10 +47,12 @@ def clean(points: Floats, triangles: Ints) -> Cleaned:
     is_flattened = points.shape[1] == 3 and is_planar(points)
     if is_flattened:
         points = points[:, :2]
-    n_flipped = 0
-    if points.shape[1] == 2:
-        is_clockwise = signed_areas(points, triangles) < 0
-        n_flipped = int(np.count_nonzero(is_clockwise))
-        if n_flipped:
-            triangles = np.where(is_clockwise[:, None], triangles[:, ::-1], triangles)
+    is_turned = (
+        turned_in_plane(points, triangles)
+        if points.shape[1] == 2
+        else turned_in_space(triangles, len(points))
+    )
+    n_flipped = int(np.count_nonzero(is_turned))
+    if n_flipped:
+        triangles = np.where(is_turned[:, None], triangles[:, ::-1], triangles)
     return Cleaned(Mesh(points, triangles), kept, n_flipped, len(is_used) - len(kept), is_flattened)

@@ -62,7 +62,7 @@ class Topology:
     @cached_property
     def component(self) -> Ints:
         """Edge-connected component of each cell, (n_cells,), numbered from 0."""
-        return _components(self.neighbours, len(self.cells))
+        return connected_labels(self.neighbours, len(self.cells))
 
     @cached_property
     def n_components(self) -> int:
@@ -93,7 +93,7 @@ class Topology:
                 np.column_stack([first_next, np.where(is_same, second_next, second)]),
             ]
         )
-        return _components(links, vertex.size).reshape(self.cells.shape)
+        return connected_labels(links, vertex.size).reshape(self.cells.shape)
 
     @cached_property
     def n_pinches(self) -> int:
@@ -110,7 +110,7 @@ class Topology:
     def edge_loop(self) -> Ints:
         """Boundary loop of each boundary edge after splitting the pinches, (n_boundary_edges,)."""
         fans = self.boundary_fans
-        loop = _components(fans, int(self.corner_fan.max()) + 1) if len(fans) else np.empty(0, np.int64)
+        loop = connected_labels(fans, int(self.corner_fan.max()) + 1) if len(fans) else np.empty(0, np.int64)
         if not len(fans):
             return loop
         return np.unique(loop[fans[:, 0]], return_inverse=True)[1].astype(np.int64)
@@ -161,6 +161,14 @@ def topology(cells: Ints, n_points: int) -> Topology:
     return Topology(cells, n_points, edges, cell_edges.reshape(cells.shape), edge_cells)
 
 
+def connected_labels(links: Ints, n_nodes: int) -> Ints:
+    """Return the component of each node of a graph, (n_nodes,), from 0, numbered by their first nodes."""
+    graph = coo_array(
+        (np.ones(len(links), dtype=np.int8), (links[:, 0], links[:, 1])), shape=(n_nodes, n_nodes)
+    )
+    return connected_components(graph, directed=False)[1].astype(np.int64)
+
+
 def _non_manifold(edges: Ints, count: Ints) -> str:
     bad = np.flatnonzero(count > 2)
     named = ", ".join(
@@ -171,10 +179,3 @@ def _non_manifold(edges: Ints, count: Ints) -> str:
 
 def _next_corner(corner: Ints, n_corners: int) -> Ints:
     return corner - corner % n_corners + (corner % n_corners + 1) % n_corners
-
-
-def _components(links: Ints, n_nodes: int) -> Ints:
-    graph = coo_array(
-        (np.ones(len(links), dtype=np.int8), (links[:, 0], links[:, 1])), shape=(n_nodes, n_nodes)
-    )
-    return connected_components(graph, directed=False)[1].astype(np.int64)

@@ -5,7 +5,7 @@ from .length import BestLength, best_length, length_of_layers
 from .moving import move_vertices
 from .pattern import Pattern
 from .realise import Realised, realise, relative_irregularity, vertex_irregularity_of_fronts
-from .search import Found, search
+from .search import Found, is_exact, search
 from .shape import Shape
 from .spacing import Spacing, best_spacing, paper_spacing
 from .strip import strip_triangles
@@ -27,6 +27,7 @@ __all__ = [
     "fan_angle",
     "fan_edge_ratio",
     "fan_quality",
+    "is_exact",
     "length_of_layers",
     "move_vertices",
     "paper_spacing",

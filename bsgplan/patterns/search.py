@@ -6,8 +6,9 @@ follow each other. (Over a long transition a sequence that goes below its coarse
 forbids it.) Sequences come from dynamic programming with prices (`search_priced`) and from the arithmetic,
 geometric and halving rules, improved by single fronts (`search_pool`); the answer is their Pareto front over
 blocks (fewer), iota+ (less) and q_min (more), hence never worse than the arithmetic and geometric sequences
-and the paper's. Up to EXACT elements and LONGEST_EXACT heights it is completed to the front of all sequences,
-exact to RESOLUTION in q_min (`search_exact`).
+and the paper's. Up to EXACT elements it is completed to the front of all sequences, at every length: a
+sequence that is not listed is matched by one that is, with no more blocks, no more iota+ and a q_min at most
+2 RESOLUTION less (`search_exact`).
 """
 
 from __future__ import annotations
@@ -25,10 +26,10 @@ from .search_strips import Known, front, known, qualities_over, strips_between
 
 EXACT = 16
 """Largest fine front searched exactly."""
-LONGEST_EXACT = 2.0
-"""Longest transition searched exactly, in heights: longer ones are mostly layers of equal fronts."""
 MOST = 256
 """Largest fine front searched at all: time and memory grow with its square."""
+MOST_LAYERS = 256
+"""Layers of equal coarse fronts that the length may take: more are no transition."""
 RESOLUTION = 1e-3
 """Mean ratios that differ by less count as equal: the digits that are printed."""
 LEAST_QUALITY = 0.3
@@ -101,18 +102,18 @@ def _pool(
     pool = [known(c, float(q)) for c, q in zip(sequences, qualities, strict=True)]
     good = [k for k in pool if k.quality >= least_quality]
     good = improved(good, length, least_quality=least_quality, is_closed=is_closed)
-    if is_exact(fine, length):
+    if is_exact(fine, coarse):
         good = exact_front(strips, length, good, least_quality=least_quality)
     return good or pool
 
 
-def is_exact(fine: int, length: float | None) -> bool:
-    """Return whether the search proves its answer: up to EXACT elements and LONGEST_EXACT heights.
+def is_exact(fine: int, coarse: int) -> bool:
+    """Return whether the search proves its answer, at any length: up to EXACT elements on a front.
 
-    >>> is_exact(16, None), is_exact(16, 100.0), is_exact(17, 1.0)
-    (True, False, False)
+    >>> is_exact(16, 1), is_exact(4, 17)
+    (True, False)
     """
-    return fine <= EXACT and (length is None or length <= LONGEST_EXACT)
+    return max(fine, coarse) <= EXACT
 
 
 def _equal_fronts(count: int, length: float | None, *, is_closed: bool) -> list[Known]:
@@ -120,8 +121,6 @@ def _equal_fronts(count: int, length: float | None, *, is_closed: bool) -> list[
     strip = best_length(Pattern((count, count), is_closed))
     most = 1 if length is None else max(1, round(length / strip.length) + 1)
     sequences = [(count,) * (n + 1) for n in range(1, most + 1)]
-    if len(sequences) > MOST:
-        raise InvalidOption(f"{length:g} heights of {count} elements are {most} layers; the most is {MOST}")
     qualities = qualities_over(sequences, length, is_closed=is_closed)
     return [known(c, float(q)) for c, q in zip(sequences, qualities, strict=True)]
 
@@ -139,5 +138,11 @@ def _check(fine: int, coarse: int, length: float | None, least_quality: float, *
             raise InvalidOption(f"{count} elements on a {kind} is not from {fewest} to {MOST}")
     if length is not None and not 0 < length < inf:
         raise InvalidOption(f"length {length:g} is not above 0; give it in heights, for example 0.7")
+    if length is not None and length * min(fine, coarse) > MOST_LAYERS:
+        layers = round(length * min(fine, coarse))
+        raise InvalidOption(
+            f"{length:g} heights of {min(fine, coarse)} elements are {layers} layers; "
+            f"the most is {MOST_LAYERS}; plan the part where the size changes"
+        )
     if not 0 < least_quality < 1:
         raise InvalidOption(f"least quality {least_quality:g} is not between 0 and 1; give for example 0.3")

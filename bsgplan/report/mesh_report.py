@@ -12,14 +12,12 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from ..arrays import Floats, Ints
-from ..errors import InvalidMesh
+from ..arrays import Floats
 from ..mesh import Mesh, quality
-from ..mesh.irregularity import Irregularity, fitted_boundary_irregularity, genus, mesh_irregularity
-from ..mesh.topology import Topology, topology
-
-Row = tuple[str, str, str]
-"""Name, value and unit of one measure, as text."""
+from ..mesh.irregularity import fitted_boundary_irregularity, genus
+from ..mesh.topology import Topology
+from .quad_report import quad_rows
+from .rows import Row, plain_irregularity, shown_irregularity, shown_share
 
 
 def measures(mesh: Mesh, *, scale: Floats | None = None) -> dict[str, Any]:
@@ -52,7 +50,7 @@ def measures(mesh: Mesh, *, scale: Floats | None = None) -> dict[str, Any]:
         "edge_median": float(np.median(edges)),
         "edge_max": float(edges.max()),
         "size_ratio": float(at_vertex.max() / at_vertex.min()),
-        "irregularity": _plain(mesh.irregularity),
+        "irregularity": plain_irregularity(mesh.irregularity),
         "irregular_interior": int(np.count_nonzero(is_irregular & ~is_boundary)),
         "n_interior": int(np.count_nonzero(~is_boundary)),
         "irregular_boundary": int(np.count_nonzero(is_irregular & is_boundary)),
@@ -63,32 +61,11 @@ def measures(mesh: Mesh, *, scale: Floats | None = None) -> dict[str, Any]:
     }
 
 
-def quad_measures(points: Floats, quads: Ints, *, scale: Floats | None = None) -> dict[str, Any] | None:
-    """Return the measures of the quads of a mixed mesh, None where there are none.
-
-    Irregularity is None where the quads alone are no manifold mesh.
-    """
-    if not len(quads):
-        return None
-    sides = np.stack([quads, np.roll(quads, -1, axis=1)], axis=-1).reshape(-1, 2)
-    lengths = np.linalg.norm(points[sides[:, 1]] - points[sides[:, 0]], axis=1)
-    if scale is not None:
-        lengths = lengths / scale[sides].mean(axis=1)
-    try:
-        topo = topology(quads, len(points))
-        irregularity = _plain(mesh_irregularity(topo))
-        n_loops, chi = topo.n_boundary_loops, topo.euler_characteristic
-    except InvalidMesh:
-        irregularity, n_loops, chi = None, None, None
-    return {
-        "n_quads": len(quads),
-        "n_points": len(points),
-        "n_boundary_loops": n_loops,
-        "euler_characteristic": chi,
-        "irregularity": irregularity,
-        "edge_min": float(lengths.min()),
-        "edge_max": float(lengths.max()),
-    }
+def measures_without_triangles() -> dict[str, Any]:
+    """Return the keys of `measures` for a mesh of no triangle: counts are 0, what cannot be measured None."""
+    keys = measures(Mesh(np.array([[0.0, 0], [1, 0], [0, 1]]), np.array([[0, 1, 2]])))
+    counts = {"n_triangles": 0, "n_components": 0, "n_components_vertex": 0, "n_boundary_loops": 0}
+    return {**dict.fromkeys(keys), **counts}
 
 
 def vertex_lengths(topo: Topology, edge_lengths: Floats) -> Floats:
@@ -107,16 +84,35 @@ def n_vertex_components(topo: Topology) -> int:
 def rows(mesh: Mapping[str, Any]) -> list[Row]:
     """Return the rows of the table of one mesh's document (`bsgplan.info/1`, key mesh)."""
     unit = "m" if mesh["projection"] else "file unit"
-    vertex_components = mesh["n_components_vertex"]
-    hanging = (
-        "" if vertex_components == mesh["n_components"] else f" ({vertex_components} joined at vertices)"
-    )
     result: list[Row] = [
         ("file", mesh["path"], ""),
         ("format", mesh["format"], ""),
         ("title", mesh["title"], ""),
         ("points", f"{mesh['n_points']}", ""),
         ("triangles", f"{mesh['n_triangles']}", ""),
+        *(_triangle_rows(mesh, unit) if mesh["n_triangles"] else []),
+        ("bounds", _bounds(mesh["bounds"]), "degrees" if mesh["projection"] else unit),
+    ]
+    if mesh["projection"]:
+        centre = f"{mesh['projection']['longitude']:.4f} {mesh['projection']['latitude']:.4f}"
+        result.append((mesh["projection"]["method"], f"centre {centre}", "degrees"))
+    if mesh["quads"]:
+        result += quad_rows(mesh["quads"], unit)
+    others = [f"{count} {kind}" for kind, count in mesh["ignored"].items() if kind != "quad"]
+    result += [("other cells, ignored", ", ".join(others), "")]
+    result += [(f"{where[:-1]} arrays", ", ".join(names), "") for where, names in mesh["arrays"].items()]
+    result += [("boundaries", line, "") for line in _boundaries(mesh["boundaries"])]
+    result += [("note", note, "") for note in mesh["notes"]]
+    return [row for row in result if row[1]]
+
+
+def _triangle_rows(mesh: Mapping[str, Any], unit: str) -> list[Row]:
+    vertex_components = mesh["n_components_vertex"]
+    hanging = (
+        "" if vertex_components == mesh["n_components"] else f" ({vertex_components} joined at vertices)"
+    )
+    fitted = shown_share(mesh["irregular_boundary_fitted"], mesh["n_boundary"])
+    return [
         ("components", f"{mesh['n_components']}{hanging}", ""),
         ("boundary loops", f"{mesh['n_boundary_loops']}", ""),
         ("Euler characteristic", f"{mesh['euler_characteristic']}", ""),
@@ -127,31 +123,16 @@ def rows(mesh: Mapping[str, Any]) -> list[Row]:
         ("longest / shortest edge", f"max {mesh['edge_ratio_max']:.3g}", "in one triangle"),
         ("edge length", _edges(mesh, "edge_min", "edge_median", "edge_max"), unit),
         ("size ratio", f"{mesh['size_ratio']:.3g}", "largest / smallest mean edge at a vertex"),
-        ("irregularity", _irregularity(mesh["irregularity"]), "valence - optimal valence, summed"),
-        ("irregular inside", _share(mesh["irregular_interior"], mesh["n_interior"]), "vertices"),
-        ("irregular on the boundary", _share(mesh["irregular_boundary"], mesh["n_boundary"]), "vertices"),
+        ("irregularity", shown_irregularity(mesh["irregularity"]), "valence - optimal valence, summed"),
+        ("irregular inside", shown_share(mesh["irregular_interior"], mesh["n_interior"]), "vertices"),
         (
-            "... fitted to its angles",
-            _share(mesh["irregular_boundary_fitted"], mesh["n_boundary"]),
+            "irregular on the boundary",
+            shown_share(mesh["irregular_boundary"], mesh["n_boundary"]),
             "vertices",
         ),
+        ("... fitted to its angles", fitted, "vertices"),
         ("area", f"{mesh['area']:.4g}", "m^2" if mesh["projection"] else "file unit^2"),
-        ("bounds", _bounds(mesh["bounds"]), "degrees" if mesh["projection"] else unit),
     ]
-    if mesh["projection"]:
-        centre = f"{mesh['projection']['longitude']:.4f} {mesh['projection']['latitude']:.4f}"
-        result.append((mesh["projection"]["method"], f"centre {centre}", "degrees"))
-    if mesh["quads"]:
-        quads = mesh["quads"]
-        iota = f", irregularity {_irregularity(quads['irregularity'])}" if quads["irregularity"] else ""
-        result.append(("quads", f"{quads['n_quads']}{iota}", ""))
-        result.append(("edge length of quads", f"{quads['edge_min']:.3g} .. {quads['edge_max']:.3g}", unit))
-    others = [f"{count} {kind}" for kind, count in mesh["ignored"].items() if kind != "quad"]
-    result += [("other cells, ignored", ", ".join(others), "")]
-    result += [(f"{where[:-1]} arrays", ", ".join(names), "") for where, names in mesh["arrays"].items()]
-    result += [("boundaries", line, "") for line in _boundaries(mesh["boundaries"])]
-    result += [("note", note, "") for note in mesh["notes"]]
-    return [row for row in result if row[1]]
 
 
 def text(table: Iterable[Row]) -> str:
@@ -165,25 +146,9 @@ def text(table: Iterable[Row]) -> str:
     return "\n".join(f"{name:<{width}}  {value} {unit}".rstrip() for name, value, unit in table)
 
 
-def _plain(irregularity: Irregularity) -> dict[str, int]:
-    return {
-        "positive": irregularity.positive,
-        "negative": irregularity.negative,
-        "total": irregularity.total,
-    }
-
-
-def _irregularity(values: Mapping[str, int]) -> str:
-    return f"{values['positive']:+d} {values['negative']:+d} = {values['total']}"
-
-
 def _edges(values: Mapping[str, float], *names: str) -> str:
     low, median, high = (f"{values[name]:.3g}" for name in names)
     return f"min {low}, median {median}, max {high}"
-
-
-def _share(part: int, whole: int) -> str:
-    return f"{part} of {whole}" + (f" ({100 * part / whole:.0f} %)" if whole else "")
 
 
 def _bounds(bounds: list[float]) -> str:

@@ -16,7 +16,7 @@ from ..mesh import Mesh
 from ..patterns import Pattern, Realised, best_length, best_spacing, realise, relative_irregularity, subdivide
 from ..patterns.frustum import pattern_qualities
 from ..patterns.strip import ring_turn
-from .pattern_tables import moved_pattern, straight_shape
+from .pattern_document import moved_pattern, straight_shape
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

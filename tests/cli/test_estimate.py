@@ -116,7 +116,7 @@ def test_two_outputs_of_one_name_are_wrong_usage(capsys, tmp_path):
 def test_the_mesh_itself_is_never_overwritten(capsys):
     code, _, err = said(capsys, SQUARE, "--save", SQUARE)
     assert code == 2
-    assert "the mesh file itself" in err
+    assert "is a file that is read" in err
 
 
 def test_a_pipe_is_not_replaced_by_a_file(capsys, tmp_path):

@@ -16,7 +16,7 @@ from bsgplan.cli.errors import exit_code
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["info"], "FILE"),
+        (["info"], "--formats"),
         (["info", "a", "b"], "b"),
         (["info", "--no-such-option", "a"], "--no-such-option"),
         (["no-such-command"], "no-such-command"),

@@ -14,6 +14,7 @@ import meshio
 import pytest
 
 from bsgplan.cli import errors
+from bsgplan.cli.convert import convert
 from bsgplan.cli.estimate import estimate
 from bsgplan.cli.info import info
 from bsgplan.cli.paper import paper
@@ -65,7 +66,7 @@ def test_constants_on_the_pages_are_those_of_the_code() -> None:
 
 
 def test_every_option_is_explained_and_none_is_made_up() -> None:
-    commands = (estimate, info, pattern, patterns, paper)
+    commands = (convert, estimate, info, pattern, patterns, paper)
     names = {name for command in commands for name in inspect.signature(command).parameters}
     names -= {"file", "counts", "ends"}
     options = {f"--{name.replace('_', '-')}" for name in names} | {"--debug", "--help"}

@@ -144,7 +144,7 @@ def test_an_error_names_line_value_and_remedy(small, old, new, message):
 def test_round_trip_is_exact(tmp_path, small):
     found = small(SMALL.replace("1.0 1.0 1.0e-1", "0.1 0.30000000000000004 1e-17"))
     path = tmp_path / "again.14"
-    write_fort14(path, found)
+    write_fort14(found, path)
     assert_same(read(path), found)
     assert [p.name for p in tmp_path.iterdir() if p.name.startswith(".")] == []
 
@@ -152,7 +152,7 @@ def test_round_trip_is_exact(tmp_path, small):
 @pytest.mark.parametrize("name", ["weirs_internal_overflow", "vew1d_coincident_seams", "katrina_wnat_om2d"])
 def test_round_trip_of_real_meshes(tmp_path, meshes, name):
     found = read(meshes / f"{name}.fort.14")
-    write_fort14(tmp_path / "again.14", found)
+    write_fort14(found, tmp_path / "again.14")
     assert_same(read(tmp_path / "again.14"), found)
 
 
@@ -168,7 +168,7 @@ def test_round_trip_of_random_meshes(tmp_path, mesh, data):
     found = MeshFile(
         "x", "fort.14", mesh, quads, np.empty((0, 2)), {"depth": depth}, {}, boundaries, title="random"
     )
-    write_fort14(tmp_path / "r.14", found)
+    write_fort14(found, tmp_path / "r.14")
     again = read(tmp_path / "r.14")
     assert_same(again, found)
     nodes_slow, triangles_slow = reference.read_fort14((tmp_path / "r.14").read_text())
@@ -178,7 +178,7 @@ def test_round_trip_of_random_meshes(tmp_path, mesh, data):
 
 def test_a_folder_that_is_not_there_is_an_output_error(tmp_path, small):
     with pytest.raises(OutputError, match="cannot be written"):
-        write_fort14(tmp_path / "no" / "x.14", small(SMALL))
+        write_fort14(small(SMALL), tmp_path / "no" / "x.14")
 
 
 @given(data=st.data())

@@ -32,8 +32,10 @@ def test_constant_z_is_dropped_and_unused_points_too():
 
 def test_a_surface_keeps_its_orientation():
     points = np.column_stack([SQUARE, [0.0, 0, 1, 0]])
-    triangles = np.array([[0, 2, 1], [0, 2, 3]])
-    assert clean(points, triangles).mesh.triangles.tolist() == triangles.tolist()
+    triangles = np.array([[0, 2, 1], [0, 3, 2]])
+    cleaned = clean(points, triangles)
+    assert cleaned.n_flipped == 0
+    assert cleaned.mesh.triangles.tolist() == triangles.tolist()
 
 
 @pytest.mark.parametrize(

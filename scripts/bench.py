@@ -1,0 +1,69 @@
+"""Measure what bsgplan costs, as ratios within one run; exit code 1 where a demand is not met.
+
+    python scripts/bench.py                    # every section
+    python scripts/bench.py planning start     # some: one module each in scripts/benchmarks/
+    python scripts/bench.py --write            # and store the tables for docs/performance.md
+
+BLAS runs on one thread, so CPU seconds are those of one core.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import os
+import pkgutil
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+STORED = HERE.parent / "docs" / "performance"
+HELPERS = ("cost", "meshes", "row")
+"""Modules of scripts/benchmarks that are no section."""
+
+
+def sections() -> list[str]:
+    """Return the names of the sections."""
+    names = [module.name for module in pkgutil.iter_modules([str(HERE / "benchmarks")])]
+    return [name for name in names if name not in HELPERS]
+
+
+def measure(name: str, *, writes: bool) -> bool:
+    """Print a section row by row, store it if asked; return whether its demands are met."""
+    from benchmarks.row import Row
+
+    from bsgplan.report.table import Column, Table, text
+
+    section = importlib.import_module(f"benchmarks.{name}")
+    print(f"{section.TITLE}")
+    rows: list[Row] = []
+    for row in section.rows():
+        print(f"  {row.what}: {row.value:.3g} {row.unit} {row.verdict}".rstrip(), flush=True)
+        rows.append(row)
+    if writes:
+        STORED.mkdir(parents=True, exist_ok=True)
+        columns = tuple(Column(name) for name in ("measured on one core", "value", "unit", "demand"))
+        table = Table(section.TITLE, columns, tuple((r.what, r.value, r.unit, r.verdict) for r in rows))
+        (STORED / f"{name}.txt").write_text(text(table) + "\n")
+    return all(row.holds for row in rows)
+
+
+def main() -> int:
+    """Measure the sections asked for."""
+    parser = argparse.ArgumentParser(description="Measure what bsgplan costs, as ratios within one run.")
+    parser.add_argument("section", nargs="*", help=", ".join(sections()))
+    parser.add_argument("--write", action="store_true", help="store the tables in docs/performance/")
+    options = parser.parse_args()
+    unknown = set(options.section) - set(sections())
+    if unknown:
+        parser.error(f"no section {', '.join(sorted(unknown))}; the sections are {', '.join(sections())}")
+    for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
+        os.environ[name] = "1"  # before numpy is loaded
+    os.environ["PYTHONPATH"] = os.pathsep.join([str(HERE.parent), os.environ.get("PYTHONPATH", "")])
+    sys.path.insert(0, str(HERE.parent))
+    met = [measure(name, writes=options.write) for name in options.section or sections()]
+    return 0 if all(met) else 1
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
