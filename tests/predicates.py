@@ -8,8 +8,11 @@ import reference
 
 from bsgplan.io import MeshFile
 from bsgplan.mesh import Mesh
+from bsgplan.mesh.quality import signed_areas
 from bsgplan.planning import Plan
 from bsgplan.regions import Profile, Regions
+from bsgplan.remesh import Replacement
+from bsgplan.remesh.accept import QUALITY_LOSS
 
 
 def assert_is_mesh(mesh: Mesh) -> None:
@@ -113,3 +116,34 @@ def plan_key(plan: Plan) -> tuple[list[tuple[str, int, int, tuple[int, ...]]], l
     ]
     ratios = [plan.regions.size.expected_triangles, *(p.region.h_max / p.region.h_min for p in parts)]
     return counts, [*ratios, *(p.chosen.q_min for p in parts if p.chosen)]
+
+
+def assert_is_graft(result: Replacement) -> None:
+    """A mesh of positive triangles over the same area; what was not replaced and every rim bit for bit."""
+    old, new, graft = result.size.mesh, result.mesh, result.graft
+    assert_is_mesh(new)
+    assert_identity_holds(new)
+    assert (signed_areas(new.points, new.triangles) > 0).all()
+    assert new.area == pytest.approx(old.area, rel=1e-12)
+    stays = graft.new_index >= 0
+    assert np.array_equal(new.points[graft.new_index[stays]], old.points[stays])
+    outside = graft.source[: graft.n_outside]
+    assert np.array_equal(new.triangles[: graft.n_outside], graft.new_index[old.triangles[outside]])
+    assert set(np.flatnonzero(result.label < 0).tolist()) <= set(outside.tolist())
+    rims = [
+        np.sort(numbers[mesh.topology.edges[mesh.topology.is_boundary_edge]], axis=1)
+        for mesh, numbers in ((old, graft.new_index), (new, np.arange(new.n_points)))
+    ]
+    assert set(map(tuple, rims[0].tolist())) == set(map(tuple, rims[1].tolist()))
+    assert np.allclose(graft.shares.sum(axis=1), 1.0)
+    assert (graft.shares >= 0).all()
+
+
+def assert_is_replacement(result: Replacement) -> None:
+    """A graft; no part has more irregular vertices or less quality than allowed."""
+    assert_is_graft(result)
+    for part in result.parts:
+        assert part.after.irregular_interior <= part.before.irregular_interior
+        assert part.after.q_min >= part.before.q_min - QUALITY_LOSS
+    before, after = result.totals()
+    assert after.irregular_interior <= before.irregular_interior

@@ -11,8 +11,12 @@ from ..arrays import Bools, Floats, Ints
 from ..mesh.topology import Topology, topology
 from .domain import Domain
 
-INTERIOR, SLIDING, CORNER, JUNCTION = 0, 1, 2, 3
-"""Kinds of vertices: free; on a curve; fixed, on one curve or none; fixed where curves meet or end."""
+INTERIOR, SLIDING, CORNER, JUNCTION, FROZEN = 0, 1, 2, 3, 4
+"""Kinds of vertices: free; on a curve; fixed, on one curve or none; fixed where curves meet or end; fixed,
+its goal exact."""
+
+FROZEN_SIDE = -2
+"""Code of a side that stays as it is: never split, collapsed or flipped. Both its ends are FROZEN."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,9 +28,10 @@ class PlacedMesh:
     triangles: Ints
     """Corners, counter-clockwise, (n_triangles, 3)."""
     codes: Ints
-    """Curve of the side opposite each corner, (n_triangles, 3): 2 c along it, 2 c + 1 against, -1 none."""
+    """Curve of the side opposite each corner, (n_triangles, 3): 2 c along it, 2 c + 1 against, -1 none,
+    FROZEN_SIDE."""
     kinds: Ints
-    """INTERIOR, SLIDING, CORNER or JUNCTION, (n_points,)."""
+    """INTERIOR, SLIDING, CORNER, JUNCTION or FROZEN, (n_points,)."""
     curves: Ints
     """Curve of each vertex, (n_points,); -1 inside and at junctions."""
     arcs: Floats

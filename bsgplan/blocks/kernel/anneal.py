@@ -27,6 +27,7 @@ from .state import (
     KIND,
     N_TRIANGLES,
     N_VERTICES,
+    NO_CURVE,
     OVERFLOW,
     STAMP,
     TEMPERATURE,
@@ -205,7 +206,7 @@ def _mend(state: State, n: int, n_flips: int, last_a: int, last_b: int) -> int:
                 t = state.fan[10, j]
                 k = corner_of(state, t, v)
                 for side in (k, (k + 2) % 3):  # the edge opposite v and the one that leaves it
-                    if state.triangle[t, 3 + side] < 0 or state.triangle[t, 6 + side] >= 0:
+                    if state.triangle[t, 3 + side] < 0 or state.triangle[t, 6 + side] != NO_CURVE:
                         continue
                     p, q = state.triangle[t, (side + 1) % 3], state.triangle[t, (side + 2) % 3]
                     if (p == last_a and q == last_b) or (p == last_b and q == last_a):

@@ -10,7 +10,7 @@ from .flip import MOST
 from .journal import give_up, keep_triangle, keep_vertex
 from .rows import anchor, relink
 from .size_at import goal_on_curve, look_up, place_on_curve
-from .state import CORNER, DELTA, GOAL, INTERIOR, KIND, SLIDING, VALENCE, State
+from .state import CORNER, DELTA, GOAL, INTERIOR, KIND, NO_CURVE, SLIDING, VALENCE, State
 
 
 @compiled
@@ -60,7 +60,7 @@ def _sheds(state: State, t: int, side: int) -> bool:
     first, second = (side + 1) % 3, (side + 2) % 3
     if state.triangle[t, 3 + first] < 0 and state.triangle[t, 3 + second] < 0:
         return False
-    return state.triangle[t, 6 + first] < 0 or state.triangle[t, 6 + second] < 0
+    return state.triangle[t, 6 + first] == NO_CURVE or state.triangle[t, 6 + second] == NO_CURVE
 
 
 @compiled
@@ -122,12 +122,12 @@ def _remove(state: State, t: int, side: int, keep: int) -> None:
     code_x, code_y = row[t, 6 + first], row[t, 6 + second]
     # the curve code of the merged side: as seen from the triangle that keeps it
     if x >= 0:
-        if code_y >= 0:
+        if code_y != NO_CURVE:
             keep_triangle(state, x)
             row[x, 6 + side_to(state, x, t)] = code_y
         relink(state, x, t, y)
     if y >= 0:
-        if code_x >= 0:
+        if code_x != NO_CURVE:
             keep_triangle(state, y)
             row[y, 6 + side_to(state, y, t)] = code_x
         relink(state, y, t, x)

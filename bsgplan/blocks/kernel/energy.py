@@ -21,6 +21,7 @@ from .state import (
     DELTA_VALENCES,
     ENERGY,
     GOAL,
+    JUNCTION,
     KIND,
     POWER,
     QUALITY,
@@ -68,9 +69,9 @@ def triangle_energy(state: State, t: int) -> float:
 
 @compiled
 def valence_energy(state: State, v: int) -> float:
-    """Return the energy of a vertex's valence; a corner pays for what is beyond half an edge only."""
+    """Return the energy of a vertex's valence; corner and junction pay beyond half an edge only."""
     off = abs(state.vertex[v, VALENCE] - state.value[v, GOAL])
-    if state.vertex[v, KIND] >= CORNER:
+    if CORNER <= state.vertex[v, KIND] <= JUNCTION:
         off = max(0.0, off - 0.5)
     return state.scalar[VALENCES] * cost_of_valence(off)
 

@@ -6,7 +6,7 @@ from .compiled import compiled
 from .energy import cost_of_valence, refresh_triangle, set_valence
 from .fan import are_joined, side_to
 from .rows import anchor, put_triangle, relink
-from .state import CORNER, GOAL, INTERIOR, KIND, VALENCE, State
+from .state import CORNER, GOAL, INTERIOR, JUNCTION, KIND, NO_CURVE, VALENCE, State
 
 MOST = 11
 """No vertex gets more edges than this."""
@@ -25,7 +25,7 @@ def least_valence(state: State, v: int) -> int:
 def can_flip(state: State, t: int, side: int) -> bool:
     """Return True where the edge has two triangles, lies on no curve and its ends may lose it."""
     other = state.triangle[t, 3 + side]
-    if other < 0 or state.triangle[t, 6 + side] >= 0:
+    if other < 0 or state.triangle[t, 6 + side] != NO_CURVE:
         return False
     b, c = state.triangle[t, (side + 1) % 3], state.triangle[t, (side + 2) % 3]
     if state.vertex[b, VALENCE] <= least_valence(state, b) or state.vertex[c, VALENCE] <= least_valence(
@@ -52,7 +52,7 @@ def flip_gain(state: State, t: int, side: int) -> float:
 def _change(state: State, v: int, by: int) -> float:
     now = abs(state.vertex[v, VALENCE] - state.value[v, GOAL])
     then = abs(state.vertex[v, VALENCE] + by - state.value[v, GOAL])
-    if state.vertex[v, KIND] >= CORNER:
+    if CORNER <= state.vertex[v, KIND] <= JUNCTION:
         now, then = max(0.0, now - 0.5), max(0.0, then - 0.5)
     return cost_of_valence(now) - cost_of_valence(then)
 

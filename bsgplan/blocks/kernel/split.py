@@ -10,12 +10,27 @@ from .flip import MOST
 from .journal import keep_vertex, take_triangle, take_vertex
 from .rows import anchor, put_triangle, relink
 from .size_at import goal_on_curve, look_up
-from .state import ARC, CURVE, ENERGY, GOAL, HINT, INTERIOR, KIND, SLIDING, TRIANGLE, VALENCE, State
+from .state import (
+    ARC,
+    CURVE,
+    ENERGY,
+    FROZEN_SIDE,
+    GOAL,
+    HINT,
+    INTERIOR,
+    KIND,
+    SLIDING,
+    TRIANGLE,
+    VALENCE,
+    State,
+)
 
 
 @compiled
 def can_split(state: State, t: int, side: int) -> bool:
-    """Return True where the vertices opposite the edge may get one more edge."""
+    """Return True where the edge is not frozen and the vertices opposite it may get one more edge."""
+    if state.triangle[t, 6 + side] == FROZEN_SIDE:
+        return False
     if state.vertex[state.triangle[t, side], VALENCE] >= MOST:
         return False
     n = state.triangle[t, 3 + side]

@@ -15,8 +15,12 @@ from ...arrays import Floats, Ints
 from ..corners import boundary_goals
 from ..domain import Domain
 
-INTERIOR, SLIDING, CORNER, JUNCTION = 0, 1, 2, 3
-"""Kinds of vertices: free; on a curve; fixed, on one curve or none; fixed where curves meet or end."""
+INTERIOR, SLIDING, CORNER, JUNCTION, FROZEN = 0, 1, 2, 3, 4
+"""Kinds of vertices: free; on a curve; fixed, on one curve or none; fixed where curves meet or end; fixed,
+its goal exact."""
+
+NO_CURVE, FROZEN_SIDE = -1, -2
+"""Codes of sides on no curve: free, and such as no move may touch, its two ends being fixed."""
 
 TRIANGLE, VALENCE, KIND, CURVE, HINT = range(5)
 """Columns of `vertex`: a triangle at it, number of edges, kind, curve (or -1), domain triangle near it."""
@@ -54,7 +58,7 @@ class State(NamedTuple):
     triangle: Ints
     """(room, 9): three corners, three neighbours (-1 none), three curve codes; first corner -1 in a free row.
 
-    A code is 2 c on a side that runs along curve c, 2 c + 1 against it, -1 on a side of no curve.
+    A code is 2 c on a side that runs along curve c, 2 c + 1 against it, NO_CURVE or FROZEN_SIDE on others.
     """
     energy: Floats
     """Energy of each triangle, (room,)."""

@@ -1,0 +1,138 @@
+"""Replacements: the outside bit for bit, positive triangles, far fewer irregular vertices, idempotent."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from predicates import assert_is_graft, assert_is_replacement
+from strategies import jittered
+from strategies import meshes as random_meshes
+
+import bsgplan
+from bsgplan.mesh import Mesh
+from bsgplan.remesh.accept import Terms, refusal
+from bsgplan.remesh.anneal import Wish, remeshed
+from bsgplan.remesh.cut import cut
+from bsgplan.remesh.graft import graft
+from bsgplan.remesh.measures import Measures, measured
+from bsgplan.remesh.replace import Replacement, replace
+from bsgplan.sizing import size_field
+
+
+def whole(mesh: Mesh, **options: object) -> Replacement:
+    return replace(size_field(mesh), label=np.zeros(mesh.n_triangles, np.int64), **options)  # type: ignore[arg-type]
+
+
+@given(mesh=random_meshes(), seed=st.integers(0, 2**32 - 1), share=st.sampled_from([0.5, 0.9, 1.0]))
+@settings(max_examples=25)
+def test_whatever_is_drawn_the_rest_stays(mesh: Mesh, seed: int, share: float) -> None:
+    random = np.random.default_rng(seed)
+    label = np.where(random.random(mesh.n_triangles) < share, 0, -1)
+    label[0] = 0
+    assert_is_replacement(replace(size_field(mesh), label=label, is_drawn=True, effort=3))
+
+
+@given(mesh=random_meshes(), seed=st.integers(0, 2**32 - 1))
+@settings(max_examples=15)
+def test_the_rim_stays_also_where_the_result_would_be_refused(mesh: Mesh, seed: int) -> None:
+    size = size_field(mesh)
+    inside = np.random.default_rng(seed).random(mesh.n_triangles) < 0.8
+    inside[0] = True
+    part = cut(mesh, inside)
+    log_size = size.log_h[part.point] - np.log(part.domain.scale)
+    placed = remeshed(part, log_size, Wish(np.count_nonzero(inside) * 1.5, 0.1), effort=2, seed=seed % 1000)
+    label = np.where(inside, 0, -1)
+    result = Replacement(size, graft(mesh, [(part, placed)]), label, ())
+    fewest = Replacement(size, graft(mesh, []), label, ())
+    assert_is_graft(result)
+    assert np.array_equal(fewest.mesh.triangles, mesh.triangles)
+
+
+def test_a_jittered_square_loses_most_of_its_irregular_vertices() -> None:
+    result = whole(jittered(24, 24, 5))
+    before, after = result.totals()
+    assert_is_replacement(result)
+    assert after.irregular_interior <= 0.25 * before.irregular_interior
+    assert after.q_min >= before.q_min
+
+
+def test_the_same_seed_gives_the_same_mesh_and_a_second_run_leaves_it() -> None:
+    mesh = jittered(16, 16, 8)
+    first, again = whole(mesh), whole(mesh)
+    assert (first.mesh.points == again.mesh.points).all()
+    assert (first.mesh.triangles == again.mesh.triangles).all()
+    second = whole(first.mesh)
+    one, two = first.totals()[1], second.totals()[1]
+    assert 0.95 * one.irregular_interior <= two.irregular_interior <= one.irregular_interior
+    assert two.q_min >= one.q_min
+
+
+def test_values_at_kept_points_are_exact_and_between_them_linear() -> None:
+    mesh = jittered(14, 14, 2)
+    graft = whole(mesh).graft
+    linear = mesh.points @ np.array([[2.0, 0.5], [-1.0, 3.0]])
+    found = graft.at_points(linear)
+    kept = graft.new_index >= 0
+    assert (found[graft.new_index[kept]] == linear[kept]).all()
+    np.testing.assert_allclose(found, graft.mesh.points @ np.array([[2.0, 0.5], [-1.0, 3.0]]), atol=1e-9)
+
+
+def test_materials_keep_their_areas_where_the_edges_between_them_are_fixed() -> None:
+    mesh = jittered(15, 15, 4)
+    material = (mesh.centroids[:, 0] > 7).astype(np.int64)
+    pair = mesh.topology.edge_cells
+    fixed = (pair[:, 1] >= 0) & (material[pair[:, 0]] != material[pair[:, 1]])
+    result = whole(mesh, fixed_edges=fixed)
+    assert not result.parts[0].reason
+    new = result.graft.at_triangles(material)
+    assert result.mesh.areas[new == 1].sum() == pytest.approx(mesh.areas[material == 1].sum(), rel=1e-12)
+
+
+BEFORE = measured(jittered(8, 8, 1), np.zeros(64))
+
+
+@pytest.mark.parametrize(
+    ("change", "terms", "word"),
+    [
+        ({}, Terms(), "irregular vertices would go"),
+        ({"irregular_interior": 1, "q_min": BEFORE.q_min - 0.03}, Terms(), "would fall"),
+        ({"irregular_interior": 1}, Terms(min_quality=0.99), "asked for"),
+        ({"irregular_interior": 1, "n_triangles": 2 * BEFORE.n_triangles}, Terms(), "are wanted"),
+        ({"irregular_interior": 1, "size_misfit": 1.2 * BEFORE.size_misfit}, Terms(), "misfit"),
+        ({"irregular_interior": 1, "size_misfit": 1.2 * BEFORE.size_misfit}, Terms(tolerance=0.3), ""),
+        ({"irregular_interior": 1, "irregular_boundary_fitted": 99}, Terms(), "irregular vertices would go"),
+    ],
+)
+def test_each_reason_to_refuse(change: dict[str, float], terms: Terms, word: str) -> None:
+    after = Measures(**{**vars(BEFORE), **change})
+    reason = refusal(BEFORE, after, float(BEFORE.n_triangles), terms)
+    assert word in reason
+    assert bool(reason) == bool(word)
+
+
+def test_a_regular_mesh_is_left_alone() -> None:
+    x, y = np.meshgrid(np.arange(6.0), np.arange(6.0), indexing="ij")
+    points = np.column_stack([(x + y / 2).ravel(), (y * np.sqrt(0.75)).ravel()])
+    a = (np.arange(5)[:, None] * 6 + np.arange(5)).ravel()
+    mesh = Mesh(
+        points, np.concatenate([np.column_stack([a, a + 6, a + 1]), np.column_stack([a + 6, a + 7, a + 1])])
+    )
+    (part,) = whole(mesh).parts
+    assert part.reason == "every vertex is regular"
+
+
+@pytest.mark.parametrize(("name", "fewer"), [("bahamas_bight_of_abaco.fort.14", 0.6)])
+def test_a_real_coast(meshes: Path, name: str, fewer: float) -> None:
+    """Islands and an open boundary, every boundary point where it was."""
+    mesh_file = bsgplan.read(meshes / name)
+    result = whole(mesh_file.mesh)
+    assert_is_replacement(result)
+    before, after = result.totals()
+    assert after.irregular_interior <= (1 - fewer) * before.irregular_interior
+    assert after.q_min >= before.q_min - 0.02
+    assert after.size_misfit <= before.size_misfit
+    assert 0.9 <= after.n_triangles / before.n_triangles <= 1.1
+    for boundary in mesh_file.boundaries:
+        assert (result.graft.new_index[boundary.nodes] >= 0).all()
