@@ -18,7 +18,7 @@ from .target import n_blocks
 HOT, COLD = 0.4, 0.03
 """First and last temperature, in units of the energy of a triangle."""
 
-MOVES = 2
+MOVES = 4
 """Moves a triangle and sweep."""
 
 ROUNDS = 12

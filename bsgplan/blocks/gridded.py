@@ -4,15 +4,47 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..arrays import Floats
 from .layout import BlockGrid, BlockLayout
-from .smooth import smooth
+from .smooth import qualities, smooth
 from .subdivide import subdivide
+
+SHARES = (0.7, 0.4, 0.0)
+"""Shares of the way to its curve that a side is bent where the whole way would invert triangles."""
+
+FLAT = 0.02
+"""Triangles under this mean ratio count as inverted then."""
 
 
 def gridded(layout: BlockLayout, *, is_straight: bool = False) -> BlockGrid:
     """Return the grid of a layout."""
+    n_edges = len(layout.placed.topology.edges)
+    return _grid(layout, np.zeros(n_edges) if is_straight else np.ones(n_edges), is_straight)
+
+
+def unbent(grid: BlockGrid) -> BlockGrid:
+    """Return the grid with sides of blocks less bent where triangles are inverted otherwise.
+
+    The grid leaves the boundary there by a part of the bay that a chord cuts off, which the deviation tells.
+    """
+    edges = grid.layout.placed.topology
+    bend = np.zeros(len(edges.edges)) if grid.is_straight else np.ones(len(edges.edges))
+    for share in SHARES:
+        is_flat = qualities(grid.placed) < FLAT
+        if grid.is_straight or not is_flat.any():
+            break
+        blocks = grid.layout.placed.triangles
+        is_near = np.zeros(len(grid.layout.placed.points), dtype=bool)
+        is_near[blocks[grid.block[is_flat]]] = True
+        near = is_near[blocks].any(axis=1)
+        bend[edges.cell_edges[near]] = share
+        grid = _grid(grid.layout, bend, is_straight=False)
+    return grid
+
+
+def _grid(layout: BlockLayout, bend: Floats, is_straight: bool) -> BlockGrid:
     domain, side = layout.domain, layout.side
     log_size = np.log(layout.target.length / domain.scale)
-    cut = subdivide(domain, layout.placed, side, log_size, snap=not is_straight)
+    cut = subdivide(domain, layout.placed, side, log_size, bend=bend)
     fine = cut.mesh if is_straight else smooth(domain, cut.mesh, log_size - np.log(side))
     return BlockGrid(layout, fine, cut.block, cut.i, cut.j, is_straight)

@@ -12,7 +12,7 @@ from ..errors import InvalidOption
 from ..sizing import SizeField
 from .anneal import annealed
 from .domain import domain_of
-from .gridded import gridded
+from .gridded import gridded, unbent
 from .layout import BlockGrid, BlockLayout
 from .placed import place
 from .repair import repaired
@@ -62,4 +62,4 @@ def lay_out(
         progress=progress,
     )
     layout = BlockLayout(size, domain, target, blocks)
-    return verified(repaired(gridded(layout, is_straight=is_straight), seed=seed))
+    return verified(unbent(repaired(gridded(layout, is_straight=is_straight), seed=seed)))

@@ -27,12 +27,15 @@ class Subdivision:
     """Steps from the block's corner 0 towards corner 2, (n_triangles,)."""
 
 
-def subdivide(domain: Domain, blocks: PlacedMesh, side: int, log_size: Floats, *, snap: bool) -> Subdivision:
+def subdivide(
+    domain: Domain, blocks: PlacedMesh, side: int, log_size: Floats, *, bend: Floats
+) -> Subdivision:
     """Return blocks cut into side x side triangles each, (n_blocks * side^2).
 
-    log_size is the log of the wanted block edge at the domain's points. With snap, nodes of sides on
-    curves lie on them, halfway between equal arc lengths and equal lengths in the size field, and the nodes
-    inside follow by (1 - lambda)^2, lambda the barycentric coordinate of the corner opposite.
+    log_size is the log of the wanted block edge at the domain's points. bend is 1 for each edge, (n_edges,),
+    whose nodes lie on its curve, halfway between equal arc lengths and equal lengths in the size field, 0
+    for straight ones, and between for a share of the way. The nodes inside follow by (1 - lambda)^2, lambda
+    the barycentric coordinate of the corner opposite.
     """
     lattice = _lattice(side)
     topology = blocks.topology
@@ -48,17 +51,16 @@ def subdivide(domain: Domain, blocks: PlacedMesh, side: int, log_size: Floats, *
     if len(triangle) and side > 1:
         curve, arc, bow = _bows(domain, blocks, triangle, at, side, log_size)
         nodes = numbers[triangle[:, None], lattice.sides[at]][:, 1:-1]
-        kinds[nodes], curves[nodes], arcs[nodes] = (
-            SLIDING,
-            curve[:, None],
-            _on_curve(domain, curve, arc[:, 1:-1]),
-        )
-        if snap:
-            bows[triangle, at] = bow
+        share = bend[topology.cell_edges[triangle, (at + 1) % 3]]
+        kinds[nodes] = np.where(share < 1, CORNER, SLIDING)[:, None]
+        curves[nodes], arcs[nodes] = curve[:, None], _on_curve(domain, curve, arc[:, 1:-1])
+        bows[triangle, at] = share[:, None, None] * bow
+        if share.any():
             points += _displacement(lattice, bows)
     xy[numbers] = points
-    if snap and len(triangle) and side > 1:
-        xy[nodes] = CurvePlaces(domain, log_size).points(curve[:, None], arc[:, 1:-1])
+    if len(triangle) and side > 1:
+        snapped = share == 1
+        xy[nodes[snapped]] = CurvePlaces(domain, log_size).points(curve[snapped, None], arc[snapped, 1:-1])
     kinds[:n_vertices], curves[:n_vertices] = blocks.kinds, blocks.curves
     arcs[:n_vertices], xy[:n_vertices] = blocks.arcs, blocks.points
     kinds[:n_vertices][blocks.kinds == CORNER] = CORNER

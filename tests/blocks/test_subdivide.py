@@ -26,7 +26,9 @@ HOLED = domain_of(
 def test_counts_are_the_closed_form(side: int, snap: bool) -> None:
     """V + (s - 1) E + (s - 1)(s - 2)/2 F nodes, an outline of s times as many edges."""
     blocks = _blocks()
-    cut = subdivide(HOLED, blocks, side, np.zeros(HOLED.n_points), snap=snap)
+    cut = subdivide(
+        HOLED, blocks, side, np.zeros(HOLED.n_points), bend=np.full(len(blocks.topology.edges), float(snap))
+    )
     n_edges, n_blocks = len(blocks.topology.edges), len(blocks.triangles)
     inside = (side - 1) * (side - 2) // 2
     assert len(cut.mesh.points) == len(blocks.points) + (side - 1) * n_edges + inside * n_blocks
@@ -43,7 +45,7 @@ def test_counts_are_the_closed_form(side: int, snap: bool) -> None:
 def test_straight_blocks_are_affine_lattices() -> None:
     """Each triangle is the block shrunk by s, upside down or not, at its place (i, j)."""
     side, blocks = 4, _blocks()
-    cut = subdivide(HOLED, blocks, side, np.zeros(HOLED.n_points), snap=False)
+    cut = subdivide(HOLED, blocks, side, np.zeros(HOLED.n_points), bend=np.zeros(len(blocks.topology.edges)))
     a, b, c = blocks.points[blocks.triangles[cut.block]].swapaxes(0, 1)
     corner = a + (cut.i[:, None] * (b - a) + cut.j[:, None] * (c - a)) / side
     first = cut.mesh.points[cut.mesh.triangles[:, 0]]
@@ -59,14 +61,16 @@ def test_straight_blocks_are_affine_lattices() -> None:
 def test_snapped_nodes_lie_on_their_curves_and_within_them() -> None:
     """Nodes of a side across the start of a closed curve too: arcs run past the end of no curve."""
     blocks = _blocks()
-    cut = subdivide(HOLED, blocks, 4, np.zeros(HOLED.n_points), snap=True).mesh
+    cut = subdivide(HOLED, blocks, 4, np.zeros(HOLED.n_points), bend=np.ones(len(blocks.topology.edges))).mesh
     on = np.flatnonzero(cut.topology.is_boundary)
     places = CurvePlaces(HOLED, np.zeros(HOLED.n_points))
     assert places.points(cut.curves[on], cut.arcs[on]) == pytest.approx(cut.points[on], abs=1e-12)
     assert (cut.arcs[on] >= 0).all()
     assert (cut.arcs[on] < HOLED.curve_lengths[cut.curves[on]]).all()
     assert rounds(HOLED, cut) == pytest.approx(np.ones(2))
-    from_start = subdivide(HOLED, _turned(blocks), 4, np.zeros(HOLED.n_points), snap=True).mesh
+    from_start = subdivide(
+        HOLED, _turned(blocks), 4, np.zeros(HOLED.n_points), bend=np.ones(len(blocks.topology.edges))
+    ).mesh
     assert (from_start.arcs < HOLED.curve_lengths.max()).all()
 
 
