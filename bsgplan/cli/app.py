@@ -24,6 +24,7 @@ With --debug an error shows its traceback.
 """
 COMMANDS = {
     "info": ("bsgplan.cli.info:info", "Show what is in a mesh."),
+    "export": ("bsgplan.cli.export:export", "Write a saved layout for a solver."),
     "convert": ("bsgplan.cli.convert:convert", "Write a mesh in another format."),
     "estimate": ("bsgplan.cli.estimate:estimate", "Plan the blocks of a mesh."),
     "pattern": ("bsgplan.cli.pattern:pattern", "Show what a pattern is worth."),

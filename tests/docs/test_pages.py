@@ -16,6 +16,7 @@ import pytest
 from bsgplan.cli import errors
 from bsgplan.cli.convert import convert
 from bsgplan.cli.estimate import estimate
+from bsgplan.cli.export import export
 from bsgplan.cli.info import info
 from bsgplan.cli.paper import paper
 from bsgplan.cli.pattern import pattern
@@ -66,7 +67,7 @@ def test_constants_on_the_pages_are_those_of_the_code() -> None:
 
 
 def test_every_option_is_explained_and_none_is_made_up() -> None:
-    commands = (convert, estimate, info, pattern, patterns, paper)
+    commands = (convert, estimate, export, info, pattern, patterns, paper)
     names = {name for command in commands for name in inspect.signature(command).parameters}
     names -= {"file", "counts", "ends"}
     options = {f"--{name.replace('_', '-')}" for name in names} | {"--debug", "--help"}
