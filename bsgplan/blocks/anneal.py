@@ -36,6 +36,9 @@ MOST_SHIFT = 0.1
 SIZE_WEIGHT, MOST_SIZE_WEIGHT = 0.5, 3.0
 """Weight of sizes in the energy: default, and the most that a tolerance may raise it to."""
 
+QUENCH = 5
+"""Cold sweeps of an annealing that is stopped early."""
+
 POWERS, POLISH = (1.0, 2.0, 4.0, 8.0), 15
 """Exponents of 1/q and sweeps at each in the polish."""
 
@@ -49,12 +52,14 @@ def annealed(
     size_tolerance: float,
     seed: int,
     progress: Callable[[str, float], None] = lambda _, __: None,
+    is_stopped: Callable[[], bool] = lambda: False,
 ) -> PlacedMesh:
     """Return a layout of the domain with few irregular vertices whose edges follow exp(log_size).
 
     log_size is given at the domain's points, in its own unit. effort is the number of sweeps. The rms of
     log(edge / wanted) is asked to be at most log(size_tolerance). progress hears of the number of irregular
-    vertices and the share of the work done.
+    vertices and the share of the work done. is_stopped is asked before every sweep; from a True on the mesh
+    there is gets QUENCH cold sweeps and the polish, no more.
     """
     from .kernel.anneal import anneal
     from .kernel.coarsen import coarsen
@@ -72,8 +77,14 @@ def annealed(
     for stage, part in enumerate(np.array_split(temperatures, n_stages)):
         state = load(domain, mesh, log_size, seed=seed + stage, size_weight=weight, offset=offset)
         for temperature in part:
+            if is_stopped():
+                break
             state.scalar[TEMPERATURE] = temperature
             anneal(state, MOVES * len(mesh.triangles))
+        if is_stopped():
+            state.scalar[TEMPERATURE] = COLD
+            for _ in range(QUENCH):
+                anneal(state, MOVES * len(mesh.triangles))
         relax_all(state, 2)
         mesh = unload(state)
         if stage < STEERED:
@@ -83,6 +94,8 @@ def annealed(
                 stray = size_rms(domain, mesh, log_size) / np.log(size_tolerance)
                 weight = float(np.clip(weight * np.clip(stray, 0.7, 1.5), SIZE_WEIGHT, MOST_SIZE_WEIGHT))
         progress(f"{np.count_nonzero(mesh.is_irregular)} irregular vertices", (stage + 1) / n_stages)
+        if is_stopped():
+            break
     state = load(domain, mesh, log_size, seed=seed, size_weight=weight, offset=offset)
     for power in POWERS:
         state.scalar[POWER] = power

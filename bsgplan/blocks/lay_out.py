@@ -38,12 +38,14 @@ def lay_out(
     kept: Ints | None = None,
     is_straight: bool = False,
     progress: Callable[[str, float], None] = lambda _, __: None,
+    is_stopped: Callable[[], bool] = lambda: False,
 ) -> BlockGrid:
     """Return the block-structured grid of a size field's mesh, its blocks tris_per_block triangles each.
 
     interfaces marks edges of the mesh that no block may cross, kept lists points that must be corners of
     blocks. gradient_limit bounds the gradient of the block size; None chooses by the raggedness of the
-    boundary. Raises InvalidMesh for a surface in space, LayoutRefused where no valid layout was found.
+    boundary. is_stopped ends the annealing early where it gives True: the best layout so far is finished.
+    Raises InvalidMesh for a surface in space, LayoutRefused where no valid layout was found.
     """
     side = isqrt(tris_per_block)
     if side * side != tris_per_block:
@@ -60,6 +62,7 @@ def lay_out(
         size_tolerance=size_tolerance,
         seed=seed,
         progress=progress,
+        is_stopped=is_stopped,
     )
     layout = BlockLayout(size, domain, target, blocks)
     return verified(repaired(gridded(layout, is_straight=is_straight), seed=seed))
