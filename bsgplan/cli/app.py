@@ -27,6 +27,7 @@ COMMANDS = {
     "export": ("bsgplan.cli.export:export", "Write a saved layout for a solver."),
     "convert": ("bsgplan.cli.convert:convert", "Write a mesh in another format."),
     "estimate": ("bsgplan.cli.estimate:estimate", "Plan the blocks of a mesh."),
+    "layout": ("bsgplan.cli.layout:layout", "Lay the whole mesh out in blocks and cut them into a grid."),
     "pattern": ("bsgplan.cli.pattern:pattern", "Show what a pattern is worth."),
     "patterns": ("bsgplan.cli.patterns:patterns", "Find the best patterns of a transition."),
     "paper": ("bsgplan.cli.paper:paper", "Reproduce every table and figure of the paper."),

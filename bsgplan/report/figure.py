@@ -21,7 +21,7 @@ from .figure_layout import BOTTOM, RIGHT, arrangement
 from .figure_list import draw_list, list_height, listed_regions
 from .figure_panels import FONT, Panel, draw_charge, draw_labels, draw_regions, draw_sizes, show_plain_numbers
 from .figure_scene import Scene, scene_of
-from .figure_view import GlobeMap, View, domain_box, zoom_box
+from .figure_view import GlobeMap, View, domain_box, filled, with_margin, zoom_box
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -41,7 +41,7 @@ def figure(plan: Plan, *, projection: GlobeMap | None = None, name: str = "") ->
     from matplotlib.figure import Figure
 
     scene = scene_of(plan, projection)
-    whole, zoom = _with_margin(domain_box(scene.view)), zoom_box(scene.view, plan.regions.size)
+    whole, zoom = with_margin(domain_box(scene.view)), zoom_box(scene.view, plan.regions.size)
     slots = arrangement(whole, scene.view.stretch(whole), has_zoom=zoom is not None)
     width, above = max(s.x + s.width for s in slots) + RIGHT, max(s.y + s.height for s in slots) + BOTTOM
     foot = list_height(plan, width)
@@ -52,7 +52,7 @@ def figure(plan: Plan, *, projection: GlobeMap | None = None, name: str = "") ->
     for place, slot in enumerate(slots):
         panel, title = PANELS[place % 3]
         shape = np.array([slot.width, slot.height])
-        box = _fill(whole if zoom is None or place < 3 else zoom, shape, scene.view)
+        box = filled(whole if zoom is None or place < 3 else zoom, shape, scene.view)
         bottom = height - slot.y - slot.height
         axes = drawn.add_axes((slot.x / width, bottom / height, slot.width / width, slot.height / height))
         heading = f"({'abcdef'[place]}) " + (title(scene) if place < 3 else f"zoom of ({'abc'[place % 3]})")
@@ -107,6 +107,21 @@ PANELS: tuple[tuple[Panel, Callable[[Scene], str]], ...] = (
 """What stands in the three places of a figure, and its heading."""
 
 
+def prepare(axes: Any, view: View, box: Floats, heading: str) -> None:
+    """Give axes their limits, labels, small ticks and heading."""
+    axes.set_xlim(*box[:, 0])
+    axes.set_ylim(*box[:, 1])
+    axes.tick_params(labelsize=FONT)
+    axes.ticklabel_format(style="sci", scilimits=(-3, 4), useMathText=True)
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.get_offset_text().set_fontsize(FONT)
+        axis.get_major_locator().set_params(nbins=6)
+    across, up = view.axis_labels
+    axes.set_xlabel(across, fontsize=FONT, labelpad=1)
+    axes.set_ylabel(up, fontsize=FONT, labelpad=1)
+    axes.set_title(heading, fontsize=FONT + 1.5, pad=5, loc="left")
+
+
 def _title(plan: Plan, name: str) -> str:
     mesh = plan.regions.size.mesh
     parts = [name] if name else []
@@ -116,32 +131,8 @@ def _title(plan: Plan, name: str) -> str:
     return "  -  ".join(parts)
 
 
-def _with_margin(box: Floats) -> Floats:
-    margin = 0.02 * np.ptp(box, axis=0).max()
-    return np.array([box[0] - margin, box[1] + margin])
-
-
-def _fill(box: Floats, shape: Floats, view: View) -> Floats:
-    """Return the box widened about its middle to the shape of its panel, so that lengths are equal."""
-    middle, extent = box.mean(axis=0), np.ptp(box, axis=0)
-    stretch = view.stretch(box)
-    unit = max(extent[0] / shape[0], extent[1] * stretch / shape[1])  # plot units an inch, across
-    half = unit * shape / [2.0, 2.0 * stretch]
-    return np.array([middle - half, middle + half])
-
-
 def _draw(drawn: Figure, axes: Any, scene: Scene, panel: Panel, box: Floats, heading: str) -> None:
-    axes.set_xlim(*box[:, 0])
-    axes.set_ylim(*box[:, 1])
-    axes.tick_params(labelsize=FONT)
-    axes.ticklabel_format(style="sci", scilimits=(-3, 4), useMathText=True)
-    for axis in (axes.xaxis, axes.yaxis):
-        axis.get_offset_text().set_fontsize(FONT)
-        axis.get_major_locator().set_params(nbins=6)
-    across, up = scene.view.axis_labels
-    axes.set_xlabel(across, fontsize=FONT, labelpad=1)
-    axes.set_ylabel(up, fontsize=FONT, labelpad=1)
-    axes.set_title(heading, fontsize=FONT + 1.5, pad=5, loc="left")
+    prepare(axes, scene.view, box, heading)
     scale = panel(axes, scene, box)
     if scale is None:
         return

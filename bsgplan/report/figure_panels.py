@@ -38,8 +38,8 @@ def draw_sizes(axes: Any, scene: Scene, box: Floats) -> Any:
     high = max(high, 1.05 * low)
     corners = scene.h[scene.view.mesh.triangles[scene.view.shown]]
     _paint(axes, scene, np.log(corners), "viridis", (float(np.log(low)), float(np.log(high))))
-    _lines(axes, scene.fronts, box, color="white", linewidth=0.35, alpha=0.8)
-    _lines(axes, scene.outline, box, color="black", linewidth=0.4)
+    draw_lines(axes, scene.fronts, box, color="white", linewidth=0.35, alpha=0.8)
+    draw_lines(axes, scene.outline, box, color="black", linewidth=0.4)
     return _scale_of("viridis", LogNorm(low, high))
 
 
@@ -51,9 +51,9 @@ def draw_regions(axes: Any, scene: Scene, box: Floats) -> Any:
     corners = np.repeat(fill[scene.plan.regions.label[scene.view.shown]], 3).reshape(-1, 3)
     colours = ListedColormap([*COLOURS, *GREYS, "white"])
     _paint(axes, scene, corners, colours, (-0.5, N_COLOURS + len(GREYS) + 0.5))
-    _lines(axes, scene.fronts, box, color="#303030", linewidth=0.4)
-    _lines(axes, scene.outline, box, color="black", linewidth=0.5)
-    _lines(axes, scene.borders, box, color="black", linewidth=1.1)
+    draw_lines(axes, scene.fronts, box, color="#303030", linewidth=0.4)
+    draw_lines(axes, scene.outline, box, color="black", linewidth=0.5)
+    draw_lines(axes, scene.borders, box, color="black", linewidth=1.1)
 
 
 def draw_charge(axes: Any, scene: Scene, box: Floats) -> Any:
@@ -66,8 +66,8 @@ def draw_charge(axes: Any, scene: Scene, box: Floats) -> Any:
     colours = _white_middle("RdBu_r", scene.charge_noise / top)
     corners = scene.charge_density[scene.view.mesh.triangles[scene.view.shown]]
     _paint(axes, scene, corners, colours, (-top, top))
-    _lines(axes, scene.outline, box, color="black", linewidth=0.5)
-    _lines(axes, scene.borders, box, color="#606060", linewidth=0.4)
+    draw_lines(axes, scene.outline, box, color="black", linewidth=0.5)
+    draw_lines(axes, scene.borders, box, color="#606060", linewidth=0.4)
     return _scale_of(colours, norm)
 
 
@@ -159,7 +159,8 @@ def _paint(axes: Any, scene: Scene, corners: Floats, colours: Any, limits: tuple
     axes.add_collection(mesh, autolim=False)
 
 
-def _lines(axes: Any, segments: Floats, box: Floats, **style: Any) -> None:
+def draw_lines(axes: Any, segments: Floats, box: Floats, **style: Any) -> None:
+    """Draw the line segments, (n, 2, 2), that touch a box; as pixels where they are many."""
     from matplotlib.collections import LineCollection
 
     near = ((segments.max(axis=1) >= box[0]) & (segments.min(axis=1) <= box[1])).all(axis=1)

@@ -133,6 +133,21 @@ def zoom_box(view: View, size: SizeField) -> Floats | None:
     return np.array([middle - half, middle + half])
 
 
+def with_margin(box: Floats) -> Floats:
+    """Return a box widened by a little."""
+    margin = 0.02 * np.ptp(box, axis=0).max()
+    return np.array([box[0] - margin, box[1] + margin])
+
+
+def filled(box: Floats, shape: Floats, view: View) -> Floats:
+    """Return the box widened about its middle to the shape of its panel, so that lengths are equal."""
+    middle, extent = box.mean(axis=0), np.ptp(box, axis=0)
+    stretch = view.stretch(box)
+    unit = max(extent[0] / shape[0], extent[1] * stretch / shape[1])  # plot units an inch, across
+    half = unit * shape / [2.0, 2.0 * stretch]
+    return np.array([middle - half, middle + half])
+
+
 def _is_seen(mesh: Mesh, towards_eye: Floats) -> Bools:
     a, b, c = mesh.points[mesh.triangles].swapaxes(0, 1)
     normal = np.cross(b - a, c - a)

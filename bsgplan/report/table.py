@@ -21,6 +21,8 @@ class Column:
     name: str
     unit: str = ""
     format: str = ".3g"
+    is_right: bool = False
+    """Words stand to the right too, as numbers do."""
 
     @property
     def heading(self) -> str:
@@ -112,5 +114,7 @@ def number(value: float, how: str) -> str:
 
 
 def _is_words(table: Table, i: int) -> bool:
+    if table.columns[i].is_right:
+        return False
     values = [row[i] for row in table.rows if row[i] is not None]
     return bool(values) and all(isinstance(v, str) for v in values)
