@@ -14,7 +14,7 @@ from ..blocks.layout import BlockGrid
 from ..blocks.placed import PlacedMesh
 from .figure import DOTS, prepare
 from .figure_panels import FONT, draw_lines
-from .figure_view import GlobeMap, View, domain_box, filled, view_of, with_margin
+from .figure_view import GlobeMap, View, domain_box, filled, view_of, with_margin, zoom_box
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -25,8 +25,11 @@ AREA, DETAIL = 50.0, 5.5
 WIDE = 1.6
 """A domain so many times wider than high has its detail below it."""
 
-SHOWN_BLOCKS = 60
-"""Blocks of the detail."""
+DETAIL_EDGES = 7
+"""Edges of its middle block across the detail."""
+
+POOR = 0.5
+"""Under this mean ratio the detail shows the worst triangle, otherwise the finest block."""
 
 RED, BLUE = "#d01c1c", "#1c50d0"
 """Colours of vertices with too many and with too few edges."""
@@ -42,37 +45,44 @@ def layout_figure(grid: BlockGrid, *, projection: GlobeMap | None = None, name: 
     """Return the figure of a layout and its grid; with a projection it is drawn in degrees."""
     from matplotlib.figure import Figure
 
-    layout = grid.layout
-    view = view_of(layout.mesh, projection)
-    whole = with_margin(domain_box(view))
-    extent = np.ptp(whole, axis=0) * [1.0, view.stretch(whole)]
-    aspect = float(np.clip(extent[0] / extent[1], 0.25, 8.0))
-    big = np.array([np.sqrt(AREA * aspect), np.sqrt(AREA / aspect)])
-    if aspect > WIDE:
-        big = np.array([11.0, 11.0 / aspect])
-        places = [(LEFT, HEAD + TOP), (LEFT, HEAD + TOP + big[1] + BOTTOM + TOP)]
-        small = np.array([11.0, DETAIL])
-    else:
-        small = np.array([DETAIL, big[1]])
-        places = [(LEFT, HEAD + TOP), (LEFT + big[0] + RIGHT + LEFT, HEAD + TOP)]
-    shapes = (big, small)
+    view = view_of(grid.layout.mesh, projection)
+    block, why = _spot(grid)
+    panels = [("blocks, irregular vertices", with_margin(domain_box(view)))]
+    zoom = zoom_box(view_of(grid.layout.size.mesh, projection), grid.layout.size)
+    if zoom is not None:
+        panels.append(("zoom", zoom))
+    panels.append((f"detail with the grid: {why}", _detail(grid, block, view)))
+    shapes, places = _arrangement(panels[0][1], view, len(panels))
     width = max(x + s[0] for (x, _), s in zip(places, shapes, strict=True)) + RIGHT
     height = max(y + s[1] for (_, y), s in zip(places, shapes, strict=True)) + BOTTOM
     drawn = Figure(figsize=(width, height), dpi=DOTS)
     drawn.suptitle(_title(grid, name), fontsize=11, y=1 - 0.12 / height, va="top")
-    boxes = filled(whole, big, view), filled(_detail(grid, view), small, view)
-    headings = ("(a) blocks, irregular vertices", "(b) detail with the grid")
+    boxes = [filled(box, shape, view) for (_, box), shape in zip(panels, shapes, strict=True)]
     for k, ((x, y), shape) in enumerate(zip(places, shapes, strict=True)):
         bottom = height - y - shape[1]
         axes = drawn.add_axes((x / width, bottom / height, shape[0] / width, shape[1] / height))
-        prepare(axes, view, boxes[k], headings[k])
-        if k == 1:
-            inner = _segments(view, grid.placed, grid.mesh.points)
-            draw_lines(axes, inner, boxes[k], color="#b0b0b0", linewidth=0.35)
+        prepare(axes, view, boxes[k], f"({'abc'[k]}) {panels[k][0]}")
+        if k == len(panels) - 1:
+            fine = view.place(grid.mesh.points[grid.placed.topology.edges])
+            draw_lines(axes, fine, boxes[k], color="#b0b0b0", linewidth=0.35)
+        else:
+            _frame(axes, boxes[k + 1])
         _blocks(axes, grid, view, boxes[k], shape)
-        if k == 0:
-            _frame(axes, boxes[1])
     return drawn
+
+
+def _arrangement(whole: Floats, view: View, n_panels: int) -> tuple[list[Floats], list[tuple[float, float]]]:
+    """Return width and height of every panel and where its upper left corner stands, inches."""
+    extent = np.ptp(whole, axis=0) * [1.0, view.stretch(whole)]
+    aspect = float(np.clip(extent[0] / extent[1], 0.25, 8.0))
+    if aspect > WIDE:
+        shapes = [np.array([11.0, 11.0 / aspect])] + [np.array([11.0, DETAIL])] * (n_panels - 1)
+        tops = np.cumsum([HEAD + TOP] + [s[1] + BOTTOM + TOP for s in shapes[:-1]])
+        return shapes, [(LEFT, float(y)) for y in tops]
+    big = np.array([np.sqrt(AREA * aspect), np.sqrt(AREA / aspect)])
+    shapes = [big] + [np.array([DETAIL, big[1]])] * (n_panels - 1)
+    lefts = np.cumsum([LEFT] + [s[0] + RIGHT + LEFT for s in shapes[:-1]])
+    return shapes, [(float(x), HEAD + TOP) for x in lefts]
 
 
 def _title(grid: BlockGrid, name: str) -> str:
@@ -92,16 +102,17 @@ def _title(grid: BlockGrid, name: str) -> str:
 def _blocks(axes: Any, grid: BlockGrid, view: View, box: Floats, shape: Floats) -> None:
     """Draw the sides of blocks as the grid bends them, the boundary thick, and irregular vertices."""
     layout = grid.layout
-    edge_inches = np.median(layout.mesh.edge_lengths) * shape[0] / np.ptp(box[:, 0])
-    if view.projection is not None:
-        edge_inches /= 111_000.0 * np.cos(np.radians(box[:, 1].mean()))
+    at = view.placed
+    seen = ((at >= box[0]) & (at <= box[1])).all(axis=1)
+    edges = at[layout.mesh.topology.edges[seen[layout.mesh.topology.edges].any(axis=1)]]
+    across = np.abs(edges[:, 0] - edges[:, 1])[:, 0] if len(edges) else np.ones(1)
+    edge_inches = 1.5 * float(np.median(across)) * shape[0] / np.ptp(box[:, 0])
     thin = float(np.clip(4.0 * edge_inches, 0.2, 0.7))
     sides, rim = _block_sides(grid)
     _fill(axes, view.place(grid.mesh.points), grid.mesh.triangles)
     draw_lines(axes, view.place(grid.mesh.points[sides]), box, color="#505050", linewidth=thin)
     draw_lines(axes, view.place(grid.mesh.points[rim]), box, color="black", linewidth=max(2 * thin, 0.6))
-    off, at = _off(layout.placed), view.placed
-    seen = ((at >= box[0]) & (at <= box[1])).all(axis=1)
+    off = _off(layout.placed)
     size = float(np.clip(30 * edge_inches, 2.5, 7.0))
     for sign, colour, label in ((1, RED, "+"), (-1, BLUE, "-")):
         here = seen & (np.sign(off) == sign)
@@ -144,19 +155,23 @@ def _block_sides(grid: BlockGrid) -> tuple[Ints, Ints]:
     return topology.edges[between], topology.edges[is_rim]
 
 
-def _segments(view: View, placed: PlacedMesh, points: Floats) -> Floats:
-    return view.place(points[placed.topology.edges])
-
-
-def _detail(grid: BlockGrid, view: View) -> Floats:
-    """Return a box around the finest block and the blocks next to it, (2, 2), plot coordinates."""
+def _spot(grid: BlockGrid) -> tuple[int, str]:
+    """Return the block that the detail is about, and why: the worst one if poor, else the finest."""
     mesh = grid.layout.mesh
-    centres = view.place(mesh.centroids)
-    finest = centres[np.argmin(mesh.areas)]
-    away = (np.abs(centres - finest) * [1.0, view.stretch(np.array([finest, finest]))]).max(axis=1)
-    reach = np.sort(away)[min(SHOWN_BLOCKS, len(away)) - 1]
-    half = reach * np.array([1.0, 1.0 / view.stretch(np.array([finest, finest]))])
-    return np.array([finest - half, finest + half])
+    quality = np.minimum.reduceat(grid.mesh.qualities, np.arange(0, grid.n_triangles, grid.layout.side**2))
+    if quality.min() < POOR:
+        return int(quality.argmin()), f"the worst triangle, q {quality.min():.2f}"
+    return int(mesh.areas.argmin()), "the finest block"
+
+
+def _detail(grid: BlockGrid, block: int, view: View) -> Floats:
+    """Return a box around a block and the blocks next to it, (2, 2), plot coordinates."""
+    mesh = grid.layout.mesh
+    middle, corners = view.place(mesh.centroids[block]), view.place(mesh.points[mesh.triangles[block]])
+    stretch = view.stretch(np.array([middle, middle]))
+    sides = np.linalg.norm((corners - np.roll(corners, 1, axis=0)) * [1.0, stretch], axis=1)
+    half = DETAIL_EDGES / 2 * sides.mean() * np.array([1.0, 1.0 / stretch])
+    return np.array([middle - half, middle + half])
 
 
 def _frame(axes: Any, box: Floats) -> None:
