@@ -15,7 +15,7 @@ def cost(target: Target) -> float:
 
 
 def advice(target: Target, smaller: Target | None) -> str | None:
-    """Return why a block size is pointless, in one sentence, or None; smaller is the target at half the side."""
+    """Return why a block size is pointless, or None; smaller is the target at half the side."""
     factor = cost(target)
     if factor < POINTLESS or target.side == 1:
         return None
@@ -24,6 +24,6 @@ def advice(target: Target, smaller: Target | None) -> str | None:
     if smaller is not None:
         remedy = f"--tris-per-block {smaller.side**2} costs {cost(smaller):.1f} x"
     return (
-        f"{n} triangles per block are pointless here: bays, channels and islands narrower than a block cut the "
-        f"blocks down, {factor:.1f} x as many and as many more triangles; {remedy}"
+        f"{n} triangles per block are pointless here: islands, bays and channels narrower than a block cut "
+        f"blocks down to {factor:.1f} x as many, and so the triangles; {remedy}"
     )

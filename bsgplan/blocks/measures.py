@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import Floats
+from ..arrays import Floats, Ints
 from ..mesh import Mesh, quality
 from ..mesh.irregularity import Irregularity, fitted_boundary_irregularity
 from ..sizing import SizeField
@@ -174,7 +174,7 @@ def _log_h(layout: BlockLayout) -> Floats:
     return np.asarray(layout.size.log_h[layout.domain.source] - np.log(layout.domain.scale))
 
 
-def _at(domain: Domain, values: Floats, points: Floats, hints: Floats) -> Floats:
+def _at(domain: Domain, values: Floats, points: Floats, hints: Ints) -> Floats:
     """Return values at the domain's points interpolated at other points near the triangles hints."""
     from .kernel.walk import locate
 

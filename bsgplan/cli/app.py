@@ -59,6 +59,7 @@ def main(argv: list[str] | None = None) -> int:
 def app() -> App:
     """Return the command-line application with every command registered by its import path."""
     result = App(name="bsgplan", help=HELP, version=lambda: version("bsgplan"), help_format="plaintext")
+    result.suppress_keyboard_interrupt = False  # `main` tells it, as it tells every error
     for name, (import_path, help_line) in COMMANDS.items():
         result.command(import_path, name=name, help=help_line)
     return result

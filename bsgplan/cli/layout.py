@@ -41,13 +41,13 @@ def layout(
     tris_per_block
         Triangles per block, a square.
     output
-        Write the blocks, one cell each, to this .vtu or .vtk.
+        Write the blocks, one cell each: .vtu, .vtm, .msh, .14 or .pos.
     grid
-        Write the triangles with their blocks to this .vtu or .vtk.
+        Write the triangles with their blocks, in the same formats.
     figure
         Draw blocks and irregular vertices to this .png, .svg or .pdf.
     save
-        Write the JSON document to this file too.
+        Write the layout to this .json, with blocks and grid, for bsgplan export.
     json
         Write one JSON document instead of the tables.
     effort
@@ -63,7 +63,7 @@ def layout(
     size
         A point or cell array of the file that holds the edge length wanted; default: the mesh's own edges.
     keep
-        Cell arrays and boundaries that blocks must follow: names or tags, as material,weir.
+        Boundaries, inner lines and points, by name or number, that blocks must follow: weir,17.
     lonlat
         The coordinates are degrees of longitude and latitude: lay out on a conformal map.
     ranks
@@ -72,15 +72,20 @@ def layout(
     check_options(tris_per_block, effort, size_tolerance, gradient_limit, seed, ranks)
     from ..blocks.kernel.anneal import anneal
     from ..blocks.kernel.compiled import is_cached
-    from ..lay_out_mesh import lay_out_mesh
+    from ..laid_out.export import flavour
+    from ..layout_pipeline import lay_out_mesh
+    from ..report.figure import check_figure_suffix
     from ..result import dumps
-    from .estimate import check_suffixes
     from .info import open_mesh
     from .output import check_writable, show
     from .progress import bar, interruptible
 
     check_writable(output, grid, figure, save, source=file)
-    check_suffixes(figure, output, grid)
+    if figure is not None:
+        check_figure_suffix(figure)
+    for path in (output, grid):
+        if path is not None:
+            flavour(path)
     with bar() as progress, interruptible() as is_stopped:
         mesh_file = open_mesh(file, is_lonlat=lonlat)
         if not is_cached(anneal):

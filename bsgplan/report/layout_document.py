@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
+from math import isfinite
 from typing import Any
 
 from ..blocks.floor import Floor
@@ -69,7 +70,7 @@ def layout_document(report: LayoutReport) -> dict[str, Any]:
             "boundary_charge": plan.drivers.boundary_charge,
         },
         "limits": {
-            "gradient_limit": target.gradient_limit,
+            "gradient_limit": target.gradient_limit if isfinite(target.gradient_limit) else None,
             "blocks": dict(target.blocks),
             "edge_ratio": asdict(report.on_target),
         },

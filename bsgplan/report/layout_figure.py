@@ -135,7 +135,9 @@ def _fill(axes: Any, points: Floats, triangles: Ints) -> None:
     from matplotlib.collections import TriMesh
     from matplotlib.tri import Triangulation
 
-    mesh = TriMesh(Triangulation(*points.T, triangles), facecolors=np.tile(WATER, (len(points), 1)))
+    mesh = TriMesh(
+        Triangulation(points[:, 0], points[:, 1], triangles), facecolors=np.tile(WATER, (len(points), 1))
+    )
     mesh.set_rasterized(True)
     mesh.set_zorder(0)
     axes.add_collection(mesh, autolim=False)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from ..blocks.levels import BYTES_PER_UNKNOWN, VECTORS
 from ..blocks.measures import EdgeRatio, Measures
 from ..planning import Plan
@@ -78,7 +80,7 @@ ROWS = {
 
 def measured(m: Measures) -> dict[str, Value]:
     """Return the cells of one measured mesh."""
-    return {
+    cells: dict[str, Value] = {
         "q_min": number(m.q_min, QUALITY),
         "q_p01": number(m.q_p01, QUALITY),
         "q_mean": number(m.q_mean, QUALITY),
@@ -89,17 +91,19 @@ def measured(m: Measures) -> dict[str, Value]:
         "iota": f"{m.irregularity.positive:+d} {m.irregularity.negative:+d}",
         "edges": _edges(m.edge_ratio),
         "rms": f"{m.edge_ratio.rms_log:.3f}",
-    } | ({} if m.n_blocks is None else {"blocks": m.n_blocks})
+    }
+    return cells if m.n_blocks is None else cells | {"blocks": m.n_blocks}
 
 
 def foretold(plan: Plan) -> dict[str, Value]:
     """Return the cells of the estimate."""
     iota = plan.irregularity
-    return {
+    cells: dict[str, Value] = {
         "blocks": plan.n_blocks,
         "triangles": plan.planned_triangles,
         "iota": f"{iota.positive:+d} {iota.negative:+d}",
-    } | ({} if plan.q_min is None else {"q_min": number(plan.q_min, QUALITY)})
+    }
+    return cells if plan.q_min is None else cells | {"q_min": number(plan.q_min, QUALITY)}
 
 
 def floor_notes(report: LayoutReport) -> tuple[str, ...]:
@@ -119,12 +123,13 @@ def limits_table(report: LayoutReport) -> Table:
     """Return what each limit of the block size costs."""
     target = report.grid.layout.target
     rows: list[tuple[Value, ...]] = []
-    before = None
+    before = math.nan
     for name, blocks in target.blocks.items():
-        more = None if before is None else blocks - before
-        triangles = None if more is None else more * target.side**2
         meaning = LIMITS.get(name, name).format(slope=target.gradient_limit)
-        rows.append((name, float(blocks), more, triangles, meaning))
+        more: tuple[Value, Value] = (None, None)
+        if not math.isnan(before):
+            more = (blocks - before, (blocks - before) * target.side**2)
+        rows.append((name, float(blocks), *more, meaning))
         before = blocks
     note = f"edges of blocks against the target so limited: {_edges(report.on_target)}, rms of log "
     return Table(
@@ -171,8 +176,11 @@ def levels_table(report: LayoutReport) -> Table:
         columns.append(Column("per rank", "MiB", ".3g"))
         notes.append(
             f"{ranks.n_ranks} ranks: {ranks.blocks_least} to {ranks.blocks_most} blocks each, most over mean "
-            f"{ranks.imbalance:.2f}; memory of the fullest: {VECTORS} vectors of {BYTES_PER_UNKNOWN}-byte P1 "
-            "unknowns, each block with its own rim, this level and all coarser ones, no matrices (P2: 4 x)."
+            f"{ranks.imbalance:.2f}; memory of the fullest: {VECTORS} vectors of"
+        )
+        notes.append(
+            f"{BYTES_PER_UNKNOWN}-byte P1 unknowns, each block with its own rim, this level and all coarser "
+            "ones, no matrices (P2: 4 x)."
         )
     return Table("Levels of refinement", tuple(columns), tuple(rows), tuple(notes))
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -67,7 +68,7 @@ def test_levels_count_what_the_grid_has():
 def test_levels_run_from_blocks_to_triangles_by_whole_steps(side):
     found = sides(side)
     assert (found[0], found[-1]) == (1, side)
-    assert all(b % a == 0 and b > a for a, b in zip(found, found[1:], strict=False))
+    assert all(b % a == 0 and b > a for a, b in pairwise(found))
     blocks = hexagon(0.25, 1, snap=True).layout.placed.topology
     assert tuple(x.side for x in levels(blocks, side)) == found
 

@@ -1,7 +1,8 @@
-"""The noun LaidMesh: a mesh file with its block layout and grid, and every way to show or write them."""
+"""The noun LayoutResult: a mesh file laid out in blocks, and every way to show or write that."""
 
 from __future__ import annotations
 
+import json
 import os
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -24,24 +25,22 @@ from .blocks.measures import (
     target_conformity,
 )
 from .io import MeshFile
+from .laid_out import LaidOut, arrays_of, export
 from .planning import Plan
 from .report import Table, layout_tables
 from .report.layout_document import LayoutReport, layout_document
 from .report.table import html, text
-from .result import dumps
 
 DEPTH = "depth"
 """Point array of ADCIRC and SCHISM meshes: still water depth, metres, positive down."""
 
 
 @dataclass(frozen=True, eq=False)
-class LaidMesh:
+class LayoutResult:
     """A mesh file, its block layout cut into a grid, and the estimate of it."""
 
-    mesh_file: MeshFile
-    """The mesh laid out."""
-    grid: BlockGrid
-    """Blocks and triangles."""
+    laid_out: LaidOut
+    """Blocks and grid, with the mesh file that they are made from."""
     plan: Plan = field(repr=False)
     """The estimate at the same block size."""
     n_ranks: int | None = None
@@ -50,6 +49,26 @@ class LaidMesh:
     """Processor time of layout and grid."""
     is_interrupted: bool = False
     """The annealing was stopped early."""
+
+    @property
+    def mesh_file(self) -> MeshFile:
+        """The mesh laid out."""
+        return self.laid_out.mesh_file
+
+    @property
+    def grid(self) -> BlockGrid:
+        """Blocks and triangles."""
+        return self.laid_out.grid
+
+    @cached_property
+    def blocks_file(self) -> MeshFile:
+        """The blocks as a mesh file."""
+        return self.laid_out.blocks_file()
+
+    @cached_property
+    def grid_file(self) -> MeshFile:
+        """The triangles as a mesh file."""
+        return self.laid_out.grid_file()
 
     @cached_property
     def report(self) -> LayoutReport:
@@ -80,12 +99,14 @@ class LaidMesh:
         return layout_document(self.report)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the document to a JSON file, whole or not at all; raises OutputError."""
+        """Write the document with blocks and grid to a JSON file for `load_layout`; raises OutputError."""
+        parts = {"blocks": arrays_of(self.blocks_file), "grid": arrays_of(self.grid_file)}
+        content = json.dumps(self.document() | parts, allow_nan=False)
         with replacing(path) as temporary:
-            temporary.write_text(dumps(self.document()), encoding="utf-8")
+            temporary.write_text(content + "\n", encoding="utf-8")
 
     def figure(self, path: str | os.PathLike[str] | None = None) -> Any:
-        """Return the matplotlib Figure of the blocks with their irregular vertices, written to path if given."""
+        """Return the matplotlib Figure of blocks and irregular vertices, written to path if given."""
         from .report.figure import save_figure
         from .report.layout_figure import layout_figure
 
@@ -96,16 +117,12 @@ class LaidMesh:
         return result
 
     def write_blocks(self, path: str | os.PathLike[str]) -> None:
-        """Write the blocks, one cell each, to a .vtu or .vtk."""
-        from .io.vtk_layout import write_blocks
-
-        write_blocks(path, self.grid.layout, self.mesh_file.projection)
+        """Write the blocks, one cell each, in the format of the suffix; see `export`."""
+        export(self.blocks_file, path)
 
     def write_grid(self, path: str | os.PathLike[str]) -> None:
-        """Write the triangles with their blocks to a .vtu or .vtk."""
-        from .io.vtk_layout import write_grid
-
-        write_grid(path, self.grid, self.mesh_file.projection)
+        """Write the triangles with their blocks in the format of the suffix; see `export`."""
+        export(self.grid_file, path)
 
     def _time_steps(self) -> tuple[float, float] | None:
         depth = self.mesh_file.point_data.get(DEPTH)

@@ -11,9 +11,9 @@ from .blocks.advice import advice
 from .blocks.domain import domain_of
 from .blocks.lay_out import EFFORT, SIZE_TOLERANCE, lay_out
 from .blocks.target import target_of
-from .features import Features, features_of
 from .io import MeshFile
-from .laid import LaidMesh
+from .laid_out import Features, LaidOut, find_features
+from .layout_result import LayoutResult
 from .pipeline import plan_blocks, size_of
 from .planning import check_block_size
 from .sizing import SizeField
@@ -33,18 +33,19 @@ def lay_out_mesh(
     n_ranks: int | None = None,
     progress: Callable[[str, float], None] = lambda _, __: None,
     is_stopped: Callable[[], bool] = lambda: False,
-) -> LaidMesh:
+) -> LayoutResult:
     """Return a mesh file with its block layout, the grid of it, and the estimate of both.
 
-    size names a point or cell array; keep names cell arrays and boundaries that blocks must follow. A block
+    size names a point or cell array; keep names boundaries, lines and points that blocks must follow. A block
     size that the boundary cannot carry is warned of before the work starts. is_stopped ends the annealing
     early where it gives True. Raises what its steps raise; see `lay_out`.
     """
     check_block_size(tris_per_block)
     progress("measuring sizes", 0.0)
     field = size_of(mesh_file, size)
-    kept = features_of(mesh_file, keep)
-    warn_if_pointless(field, kept, isqrt(tris_per_block), gradient_limit)
+    side = isqrt(tris_per_block)
+    features = find_features(mesh_file, field, side=side, keep=keep)
+    warn_if_pointless(field, features, side, gradient_limit)
     begin = time.process_time()
     grid = lay_out(
         field,
@@ -53,8 +54,8 @@ def lay_out_mesh(
         size_tolerance=size_tolerance,
         gradient_limit=gradient_limit,
         seed=seed,
-        interfaces=kept.interfaces,
-        kept=kept.points,
+        interfaces=features.interfaces,
+        kept=features.kept,
         is_straight=is_straight,
         progress=progress,
         is_stopped=is_stopped,
@@ -62,12 +63,12 @@ def lay_out_mesh(
     seconds = time.process_time() - begin
     progress("estimating", 1.0)
     planned = plan_blocks(mesh_file, tris_per_block=tris_per_block, size=size)
-    return LaidMesh(mesh_file, grid, planned.plan, n_ranks, seconds, is_stopped())
+    return LayoutResult(LaidOut(grid, mesh_file), planned.plan, n_ranks, seconds, is_stopped())
 
 
-def warn_if_pointless(field: SizeField, kept: Features, side: int, gradient_limit: float | None) -> None:
+def warn_if_pointless(field: SizeField, features: Features, side: int, gradient_limit: float | None) -> None:
     """Log a warning where the boundary cannot carry blocks of this size, before the time is spent."""
-    domain = domain_of(field.mesh, interfaces=kept.interfaces, kept=kept.points)
+    domain = domain_of(field.mesh, interfaces=features.interfaces, kept=features.kept)
     target = target_of(domain, field, side, gradient_limit=gradient_limit)
     half = target_of(domain, field, side // 2, gradient_limit=gradient_limit) if side > 1 else None
     told = advice(target, half)
