@@ -12,12 +12,15 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from math import isqrt
 
 import numpy as np
 import shapely
 from shapely.geometry.base import BaseGeometry
 
 from .arrays import sums_by
+from .blocks.domain import domain_of
+from .blocks.target import target_of
 from .errors import InvalidMesh, MeshReadError
 from .io import MeshFile
 from .io.size_file import sizes_from
@@ -74,7 +77,13 @@ def plan_blocks(
             regions = drawn(n)
         else:
             regions = find_regions(field, tris_per_block=n, persistence=persistence, plateau=plateau)
-        return estimate(regions, tris_per_block=n, objective=objective, gradient_limit=gradient_limit)
+        return estimate(
+            regions,
+            tris_per_block=n,
+            objective=objective,
+            gradient_limit=gradient_limit,
+            boundary_limited=None if region is not None else boundary_limited_blocks(field, n),
+        )
 
     if n_blocks is not None:
         return PlannedMesh(cut, (within(plan_at, field.expected_triangles, n_blocks),))
@@ -113,6 +122,15 @@ def size_of(
         where = mesh.points if name in mesh_file.point_data else mesh.centroids
         values = values * mesh_file.projection.scale(where)
     return named_size_field(mesh, values, name)
+
+
+def boundary_limited_blocks(size: SizeField, tris_per_block: int) -> float | None:
+    """Return the blocks of a layout, whose edges the boundary limits; None where none can be laid out."""
+    try:
+        domain = domain_of(size.mesh)
+    except InvalidMesh:  # a surface in space, a folded mesh
+        return None
+    return target_of(domain, size, isqrt(tris_per_block)).blocks["boundary"]
 
 
 def cut_out(mesh_file: MeshFile, region: BaseGeometry) -> MeshFile:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import Bools, Ints
+from .chains import chain
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,8 +60,6 @@ def find_curves(
 
 def _walk(ends: Ints, is_boundary: Bools, is_junction: Bools) -> tuple[Ints, Ints, Bools, Ints, Bools]:
     """Return nodes, the edges between them and whether each is walked along, rows of curves, closedness."""
-    from .kernel.chains import chain
-
     n = len(ends)
     order = np.argsort(ends.ravel(), kind="stable")
     sorted_ends = ends.ravel()[order]

@@ -150,8 +150,11 @@ def estimate(
     tris_per_block: int = 16,
     objective: str = "balanced",
     gradient_limit: float = GRADIENT_LIMIT,
+    boundary_limited: float | None = None,
 ) -> Plan:
     """Return the plan of regions at a block size.
+
+    boundary_limited is the number of blocks of the domain that its boundary allows, kept among the drivers.
 
     Raises InvalidOption unless tris_per_block is a perfect square, the objective is known and the
     gradient limit is positive.
@@ -166,7 +169,12 @@ def estimate(
         proposed = () if region.kind == UNIFORM else candidates(region, tris_per_block)
         chosen = choose(proposed, objective) if proposed else None
         plans.append(RegionPlan(region, tris_per_block, proposed, chosen))
-    counted = drivers(regions, tris_per_block=tris_per_block, gradient_limit=gradient_limit)
+    counted = drivers(
+        regions,
+        tris_per_block=tris_per_block,
+        gradient_limit=gradient_limit,
+        boundary_limited=boundary_limited,
+    )
     return Plan(regions, tris_per_block, objective, gradient_limit, tuple(plans), counted)
 
 

@@ -56,6 +56,8 @@ class Drivers:
     """The size field as an upper limit only, for R = 4 and 2 at the given block size and at 64."""
     paper_upper_limit: UpperLimit
     """The paper's own estimate: 1.75 times the triangles at 64 a block."""
+    blocks_boundary_limited: float | None
+    """The same with the block size also limited by what the boundary carries; None where it is not known."""
     blocks_gradient_bound: float
     """sqrt(3) * integral |grad log h|^2 dA / (ln tau)^2: straight blocks of one size inside."""
     blocks_boundary: int
@@ -66,8 +68,17 @@ class Drivers:
     """What the boundary carries: -6 chi less the interior."""
 
 
-def drivers(regions: Regions, *, tris_per_block: int = 16, gradient_limit: float = GRADIENT_LIMIT) -> Drivers:
-    """Return the block counts of the regions' part of the domain, driver by driver."""
+def drivers(
+    regions: Regions,
+    *,
+    tris_per_block: int = 16,
+    gradient_limit: float = GRADIENT_LIMIT,
+    boundary_limited: float | None = None,
+) -> Drivers:
+    """Return the block counts of the regions' part of the domain, driver by driver.
+
+    boundary_limited is the count of the whole domain that its boundary allows, from who knows the boundary.
+    """
     size, topology = regions.size, regions.size.mesh.topology
     inside = regions.label >= 0
     weight = float(size.triangle_weights[inside].sum())
@@ -80,6 +91,7 @@ def drivers(regions: Regions, *, tris_per_block: int = 16, gradient_limit: float
     return Drivers(
         blocks_by_count=weight / tris_per_block,
         blocks_gradient_limited=gradient_limited_blocks(size, side, gradient_limit, inside),
+        blocks_boundary_limited=boundary_limited,
         blocks_upper_limit=tuple(
             UpperLimit(ratio, n, refined[ratio], refined[ratio] / n) for ratio in CAPS for n in sizes
         ),

@@ -22,6 +22,11 @@ def drivers_table(plan: Plan) -> Table:
             f"integral of 1 / block area, |grad H| <= {plan.gradient_limit:g}, H <= s h",
         ),
         (
+            "blocks, boundary-limited",
+            d.blocks_boundary_limited,
+            "as a layout is made: islands, corners, bays and channels bound the block edge too",
+        ),
+        (
             "gradient bound",
             d.blocks_gradient_bound,
             "sqrt(3) integral |grad log h|^2 dA / (ln tau)^2, ln tau = .5",

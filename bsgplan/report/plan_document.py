@@ -122,6 +122,7 @@ def _totals_document(plan: Plan) -> dict[str, Any]:
         "planned_triangles": plan.planned_triangles,
         "blocks_by_count": d.blocks_by_count,
         "blocks_gradient_limited": d.blocks_gradient_limited,
+        "blocks_boundary_limited": d.blocks_boundary_limited,
         "blocks_upper_limit": [asdict(u) for u in d.blocks_upper_limit],
         "paper_upper_limit": {
             "triangles": d.paper_upper_limit.triangles,
