@@ -12,6 +12,7 @@ from __future__ import annotations
 import argparse
 import contextlib
 import io
+import json
 import os
 import re
 import shlex
@@ -19,10 +20,12 @@ import shutil
 import tempfile
 import tomllib
 from pathlib import Path
+from typing import Any
 
 ROOT = Path(__file__).resolve().parent.parent
-EXAMPLES = ROOT / "docs" / "examples"
-PICTURES = ROOT / "docs" / "pictures"
+DOCS = ROOT / "docs"
+EXAMPLES = DOCS / "examples"
+PICTURES = DOCS / "pictures"
 
 COLORS = 256
 """Colours of a picture: with a palette that covers rare colours too, a file is a quarter as large."""
@@ -75,10 +78,16 @@ DOCUMENTS: dict[str, tuple[str, ...]] = {
 CASES = ("shoreline", "islands", "aerofoil", "plate", "rectangle", "annulus", "square")
 """Cases with a picture in docs/pictures/."""
 
+LAYOUTS = DOCS / "layout"
+"""What docs/layout.md shows of `bsgplan layout`: a table over the cases, one document."""
+
+LAYOUT_DOCUMENT = ("layout", case("plate"), "--effort", "5", "--ranks", "8", "--json")
+"""The command of docs/layout/plate.json: few sweeps, so that a test can run it again."""
+
 PAPER = tuple(f"figure_{n}" for n in (1, 2, 3, 4, 5, 6, 7, 9, 10))
 """Pictures of `bsgplan paper` that docs/paper.md shows."""
 
-DRAWN = (*CASES, *(f"paper_{name}" for name in PAPER))
+DRAWN = (*CASES, "layout_shoreline", *(f"paper_{name}" for name in PAPER))
 """Pictures in docs/pictures/ that are made here."""
 
 
@@ -114,6 +123,60 @@ def draw(name: str) -> int:
     if code:
         raise SystemExit(f"{name}: exit code {code}: {err}")
     return shrink(path)
+
+
+def layouts(*, draws: bool) -> None:
+    """Write docs/layout/: each case laid out, beside its estimate; its picture where draws."""
+    LAYOUTS.mkdir(exist_ok=True)
+    (LAYOUTS / "plate.json").write_text(document(LAYOUT_DOCUMENT))
+    lines = ["| case | " + " | ".join(LAYOUT_COLUMNS) + " |", "|---|" + "---|" * len(LAYOUT_COLUMNS)]
+    for name in CASES:
+        figure = ("--figure", str(PICTURES / f"layout_{name}.png")) if name == "shoreline" and draws else ()
+        found = json.loads(document(("layout", case(name), "--json", *figure)))
+        estimated = json.loads(document(("estimate", case(name), "--json")))["totals"]
+        lines.append(f"| {name} | " + " | ".join(layout_row(found, estimated)) + " |")
+        print(lines[-1])
+    (LAYOUTS / "cases.md").write_text("\n".join(lines) + "\n")
+    if draws:
+        print(f"layout_shoreline.png  {shrink(PICTURES / 'layout_shoreline.png')} bytes")
+
+
+LAYOUT_COLUMNS = (
+    "blocks: by patterns",
+    "boundary-limited",
+    "laid out",
+    "`q_min`: estimate",
+    "straight blocks",
+    "grid",
+    "input",
+    "`iota+` `iota-`: estimate",
+    "laid out",
+    "input",
+    "irregular inside: input",
+    "laid out",
+)
+"""Heads of the table of cases."""
+
+
+def layout_row(found: dict[str, Any], estimated: dict[str, Any]) -> list[str]:
+    """Return the cells of one case from its documents of layout and estimate."""
+
+    def iota(part: str) -> str:
+        return "{positive:+d} {negative:+d}".format(**found[part]["irregularity"])
+
+    def quality(part: str) -> str:
+        value = found[part]["q_min"]
+        return "-" if value is None else f"{value:.2f}"
+
+    return [
+        str(found["estimate"]["n_blocks"]),
+        f"{estimated['blocks_boundary_limited']:.0f}",
+        str(found["layout"]["n_blocks"]),
+        *(quality(part) for part in ("estimate", "layout", "grid", "input")),
+        *(iota(part) for part in ("estimate", "layout", "input")),
+        str(found["input"]["irregular_interior"]),
+        str(found["layout"]["irregular_interior"]),
+    ]
 
 
 def paper(*, draws: bool) -> None:
@@ -160,6 +223,7 @@ def main() -> None:
     for name, words in DOCUMENTS.items():
         (EXAMPLES / name).write_text(document(words))
         print(name)
+    layouts(draws=not options.text)
     paper(draws=not options.text)
     print("paper.md")
     for name in () if options.text else CASES:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from .target import Target
 
 POINTLESS = 2.0
-"""Where the limits cost this many times the blocks, the next smaller block size has as few irregular
-vertices and no more blocks: a coast that cannot carry blocks has them cut down to its own size."""
+"""Where the limits cost this many times the blocks, smaller blocks are better in all: the Bohai Sea in blocks
+of 64 needs 2.7 times the blocks, 3.6 times the triangles and more irregular vertices than in blocks of 16."""
 
 
 def cost(target: Target) -> float:

@@ -18,6 +18,7 @@ from bsgplan.cli.convert import convert
 from bsgplan.cli.estimate import estimate
 from bsgplan.cli.export import export
 from bsgplan.cli.info import info
+from bsgplan.cli.layout import layout
 from bsgplan.cli.paper import paper
 from bsgplan.cli.pattern import pattern
 from bsgplan.cli.patterns import patterns
@@ -67,7 +68,7 @@ def test_constants_on_the_pages_are_those_of_the_code() -> None:
 
 
 def test_every_option_is_explained_and_none_is_made_up() -> None:
-    commands = (convert, estimate, export, info, pattern, patterns, paper)
+    commands = (convert, estimate, export, info, layout, pattern, patterns, paper)
     names = {name for command in commands for name in inspect.signature(command).parameters}
     names -= {"file", "counts", "ends"}
     options = {f"--{name.replace('_', '-')}" for name in names} | {"--debug", "--help"}
@@ -79,11 +80,11 @@ def test_every_option_is_explained_and_none_is_made_up() -> None:
         assert used <= options | {"--version"}, page.name
 
 
-def test_defaults_in_the_table_of_options_are_those_of_the_program() -> None:
-    parameters = inspect.signature(estimate).parameters
-    for option, default in re.findall(
-        r"^\| `--([a-z-]+)` \| `?([\w.]+)`? \|", section("Options of estimate"), flags=re.M
-    ):
+@pytest.mark.parametrize("command", [estimate, layout], ids=["estimate", "layout"])
+def test_defaults_in_the_table_of_options_are_those_of_the_program(command: Any) -> None:
+    parameters = inspect.signature(command).parameters
+    table = section(f"Options of {command.__name__}")
+    for option, default in re.findall(r"^\| `--([a-z-]+)` \| `?([\w.]+)`? \|", table, flags=re.M):
         there = parameters[option.replace("-", "_")].default
         if there is not None:
             assert str(there) == default, option
@@ -94,9 +95,9 @@ def test_exit_codes_are_all_explained() -> None:
     assert {int(row) for row in re.findall(r"^\| (\d+) \|", section("Exit codes"), flags=re.M)} == codes
 
 
-@pytest.mark.parametrize("name", ["info", "estimate"])
+@pytest.mark.parametrize("name", ["examples/info", "examples/estimate", "layout/plate"])
 def test_every_key_of_a_document_is_explained(name: str) -> None:
-    document = json.loads((DOCS / "examples" / f"{name}.json").read_text())
+    document = json.loads((DOCS / f"{name}.json").read_text())
     words = set(re.findall(r"`(\w+)`", section("JSON documents")))
     variable = {"ignored", "arrays", "boundaries"}  # their keys are those of the file
     assert not {key for key in keys(document, variable) if key not in words}
