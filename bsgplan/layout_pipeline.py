@@ -10,7 +10,6 @@ from math import isqrt
 from .blocks.advice import advice
 from .blocks.domain import domain_of
 from .blocks.lay_out import EFFORT, SIZE_TOLERANCE, lay_out
-from .blocks.target import target_of
 from .io import MeshFile
 from .laid_out import Features, LaidOut, find_features
 from .layout_result import LayoutResult
@@ -69,8 +68,6 @@ def lay_out_mesh(
 def warn_if_pointless(field: SizeField, features: Features, side: int, gradient_limit: float | None) -> None:
     """Log a warning where the boundary cannot carry blocks of this size, before the time is spent."""
     domain = domain_of(field.mesh, interfaces=features.interfaces, kept=features.kept)
-    target = target_of(domain, field, side, gradient_limit=gradient_limit)
-    half = target_of(domain, field, side // 2, gradient_limit=gradient_limit) if side > 1 else None
-    told = advice(target, half)
+    told = advice(domain, field, side, gradient_limit=gradient_limit)
     if told is not None:
         logging.getLogger("bsgplan").warning("%s", told)

@@ -2,28 +2,32 @@
 
 from __future__ import annotations
 
-from .target import Target
+from ..sizing import SizeField
+from .domain import Domain
+from .target import Target, target_of
 
-POINTLESS = 2.0
-"""Where the limits cost this many times the blocks, smaller blocks are better in all: the Bohai Sea in blocks
-of 64 needs 2.7 times the blocks, 3.6 times the triangles and more irregular vertices than in blocks of 16."""
+POINTLESS = 1.5
+"""Where the limits cost more than this factor in blocks, even at their highest floor, smaller blocks are
+better in all: the Bohai Sea had 3.6 times the triangles in blocks of 64, and more irregular vertices."""
 
 
 def cost(target: Target) -> float:
     """Return blocks that the limits leave over blocks that the size field alone asks for, at least 1."""
-    return max(1.0, list(target.blocks.values())[-1] / target.blocks["resolution"])
+    return max(1.0, target.blocks["boundary"] / target.blocks["resolution"])
 
 
-def advice(target: Target, smaller: Target | None) -> str | None:
-    """Return why a block size is pointless, or None; smaller is the target at half the side."""
-    factor = cost(target)
-    if factor < POINTLESS or target.side == 1:
-        return None
-    n = target.side**2
-    remedy = "a coarser layout of this domain does not exist"
-    if smaller is not None:
-        remedy = f"--tris-per-block {smaller.side**2} costs {cost(smaller):.1f} x"
+def advice(domain: Domain, size: SizeField, side: int, *, gradient_limit: float | None = None) -> str | None:
+    """Return why blocks of side x side triangles are pointless on this domain, and which are not; or None."""
+    first = target = target_of(domain, size, side, gradient_limit=gradient_limit)
+    while cost(target) > POINTLESS and target.side > 1:
+        target = target_of(domain, size, target.side // 2, gradient_limit=gradient_limit)
+    return None if target is first else told(first, target)
+
+
+def told(pointless: Target, better: Target) -> str:
+    """Return the sentence that advises a smaller block size."""
     return (
-        f"{n} triangles per block are pointless here: islands, bays and channels narrower than a block cut "
-        f"blocks down to {factor:.1f} x as many, and so the triangles; {remedy}"
+        f"{pointless.side**2} triangles per block are pointless here: {pointless.raggedness:.0%} of the "
+        f"boundary's length carries no such edge, which makes {cost(pointless):.1f} times the blocks and "
+        f"triangles; --tris-per-block {better.side**2} makes {cost(better):.1f} times"
     )

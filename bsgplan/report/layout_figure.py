@@ -47,7 +47,7 @@ def layout_figure(grid: BlockGrid, *, projection: GlobeMap | None = None, name: 
 
     view = view_of(grid.layout.mesh, projection)
     block, why = _spot(grid)
-    panels = [("blocks, irregular vertices", with_margin(domain_box(view)))]
+    panels = [("blocks, irregular vertices", with_margin(domain_box(view_of(grid.mesh, projection))))]
     zoom = zoom_box(view_of(grid.layout.size.mesh, projection), grid.layout.size)
     if zoom is not None:
         panels.append(("zoom", zoom))

@@ -7,9 +7,9 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hand_made import hexagon
 from hypothesis import given
 from hypothesis import strategies as st
+from layouts_by_hand import hexagon
 
 from bsgplan.blocks.floor import floor_of
 from bsgplan.blocks.levels import level, levels, ranks, sides

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hand_made import SIDES, disc, hexagon
+from layouts_by_hand import SIDES, disc, hexagon
 
 from bsgplan.blocks.measures import (
     NODES,

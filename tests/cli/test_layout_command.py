@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import logging
 import os
 import pty
 import re
@@ -18,8 +17,12 @@ import numpy as np
 import pytest
 
 from bsgplan.blocks import lay_out
+from bsgplan.blocks.advice import advice
+from bsgplan.blocks.domain import domain_of
 from bsgplan.cli import main
+from bsgplan.io import read
 from bsgplan.laid_out import load_layout
+from bsgplan.sizing import size_field
 
 CASES = Path(__file__).resolve().parents[2] / "cases"
 SQUARE = str(CASES / "square" / "mesh.msh")
@@ -208,35 +211,35 @@ def test_a_terminal_sees_the_irregular_vertices_fall(written):
     with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=theirs, env=environment) as process:
         os.close(theirs)
         told = b""
-        while chunk := read(ours):
+        while chunk := next_bytes(ours):
             told += chunk
     assert process.returncode == 0
     assert re.search(rb"\d+ irregular vertices", told)
 
 
-def read(stream: int) -> bytes:
+def next_bytes(stream: int) -> bytes:
     try:
         return os.read(stream, 4096)
     except OSError:  # the other end is closed
         return b""
 
 
-def test_a_block_size_that_a_coast_cannot_carry_is_told_before_the_work(caplog):
-    from bsgplan.blocks.advice import advice
-    from bsgplan.blocks.target import Target
+def test_a_block_size_that_a_coast_cannot_carry_is_told_before_the_work(meshes):
+    size = size_field(read(meshes / "north_sea.msh").mesh)
+    domain = domain_of(size.mesh)
+    said_so = advice(domain, size, 8)
+    assert said_so is not None
+    assert "64 triangles per block are pointless" in said_so
+    assert "--tris-per-block 4 makes 1.3 times" in said_so
+    assert advice(domain, size, 2) is None
 
-    def target(side, resolution, boundary):
-        more = {"raggedness": 0.3} if "raggedness" in Target.__dataclass_fields__ else {}
-        nothing = np.zeros(0)
-        blocks = {"resolution": resolution, "boundary": boundary}
-        return Target(side, nothing, nothing.astype(bool), nothing, 1.0, blocks=blocks, **more)
 
-    told = advice(target(8, 600.0, 1670.0), target(4, 2400.0, 3300.0))
-    assert told is not None
-    assert "64 triangles per block are pointless" in told
-    assert "2.8 x as many" in told
-    assert "--tris-per-block 16 costs 1.4 x" in told
-    assert advice(target(4, 2400.0, 3300.0), None) is None
-    with caplog.at_level(logging.WARNING, "bsgplan"):
-        assert main(["layout", SQUARE, *QUICK]) == 0
-    assert "pointless" not in caplog.text
+def test_a_square_carries_blocks_of_any_size():
+    size = size_field(read(SQUARE).mesh)
+    assert [advice(domain_of(size.mesh), size, side) for side in (1, 2, 4, 8)] == [None] * 4
+
+
+def test_the_warning_is_one_line_on_stderr(capsys, monkeypatch):
+    monkeypatch.setattr("bsgplan.layout_pipeline.advice", lambda *_, **__: "pointless here")
+    code, _, err = said(capsys, SQUARE, *QUICK)
+    assert (code, err) == (0, "warning: pointless here\n")
