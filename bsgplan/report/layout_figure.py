@@ -102,7 +102,7 @@ def _title(grid: BlockGrid, name: str) -> str:
 def _blocks(axes: Any, grid: BlockGrid, view: View, box: Floats, shape: Floats) -> None:
     """Draw the sides of blocks as the grid bends them, the boundary thick, and irregular vertices."""
     layout = grid.layout
-    at = view.placed
+    at = view.place(grid.mesh.points[: layout.mesh.n_points])  # smoothing moves the corners of blocks too
     seen = ((at >= box[0]) & (at <= box[1])).all(axis=1)
     edges = at[layout.mesh.topology.edges[seen[layout.mesh.topology.edges].any(axis=1)]]
     across = np.abs(edges[:, 0] - edges[:, 1])[:, 0] if len(edges) else np.ones(1)

@@ -139,7 +139,7 @@ def test_the_picture_of_the_folders_shows_what_there_is() -> None:
     picture = code(DOCS / "architecture.md", "")[1].split("cases/")[0]
     shown, folder = set(), package
     for line in picture.splitlines()[1:]:
-        if (head := re.match(r"  (\w+)(/|\.py)", line)) is not None:
+        if (head := re.match(r"  ([\w/]+)(/|\.py)", line)) is not None:
             folder = package / head[1] if head[2] == "/" else package
             shown.add(folder)
         for name in re.findall(r"\w+\.py", line):

@@ -34,6 +34,14 @@ def test_every_irregular_vertex_is_drawn_in_its_colour():
     assert told == ["1 with too many edges", "3 with too few edges"]
 
 
+def test_markers_sit_where_the_grid_has_the_corners_of_blocks():
+    grid = with_goals([5.0] + 6 * [4.0])
+    points = grid.placed.points.copy()
+    points[0] += 0.01
+    moved = replace(grid, placed=replace(grid.placed, points=points))
+    assert np.allclose(markers(layout_figure(moved).axes[0], "+"), moved.mesh.points[[0]])
+
+
 def test_the_title_tells_blocks_irregular_vertices_and_quality():
     title = layout_figure(with_goals([5.0] + 6 * [4.0]), name="hexagon").get_suptitle()
     assert title.startswith("hexagon  -  6 blocks of 16 triangles  -  1 irregular vertices inside, 6 on")
