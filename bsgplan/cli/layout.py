@@ -28,8 +28,10 @@ def layout(
     seed: int = 7,
     straight: Annotated[bool, Parameter(negative=(), show_default=False)] = False,
     size: str | None = None,
+    size_file: Path | None = None,
     keep: str | None = None,
     lonlat: Annotated[bool, Parameter(negative=(), show_default=False)] = False,
+    split_quads: Annotated[bool, Parameter(negative=(), show_default=False)] = False,
     ranks: int | None = None,
 ) -> None:
     """Lay the whole mesh out in blocks and cut them into a grid.
@@ -62,10 +64,14 @@ def layout(
         Keep the sides of blocks straight, for solvers that refine by themselves.
     size
         A point or cell array of the file that holds the edge length wanted; default: the mesh's own edges.
+    size_file
+        A file that holds the edge length wanted: a .pos, .sol or JIGSAW grid, or a mesh with --size.
     keep
         Boundaries, inner lines and points, by name or number, that blocks must follow: weir,17.
     lonlat
         The coordinates are degrees of longitude and latitude: lay out on a conformal map.
+    split_quads
+        Cut quads into two triangles each before the layout.
     ranks
         Tell blocks and memory for so many processes.
     """
@@ -80,20 +86,21 @@ def layout(
     from .output import check_writable, show
     from .progress import bar, interruptible
 
-    check_writable(output, grid, figure, save, source=file)
+    check_writable(output, grid, figure, save, sources=(file, size_file))
     if figure is not None:
         check_figure_suffix(figure)
     for path in (output, grid):
         if path is not None:
             flavour(path)
     with bar() as progress, interruptible() as is_stopped:
-        mesh_file = open_mesh(file, is_lonlat=lonlat)
+        mesh_file = open_mesh(file, is_lonlat=lonlat, split_quads=split_quads)
         if not is_cached(anneal):
             print("compiling, once, about a minute", file=sys.stderr)  # noqa: T201
         result = lay_out_mesh(
             mesh_file,
             tris_per_block=tris_per_block,
             size=size,
+            size_file=size_file,
             keep=tuple(word.strip() for word in keep.split(",")) if keep else (),
             effort=effort,
             size_tolerance=size_tolerance,

@@ -175,7 +175,7 @@ def interrupted(monkeypatch, n_times):
 
         return lay_out(size, progress=told, **options)
 
-    monkeypatch.setattr("bsgplan.layout_pipeline.lay_out", lay_out_with_signals)
+    monkeypatch.setattr("bsgplan.laid_out.paired.lay_out", lay_out_with_signals)
     return stages
 
 
