@@ -82,7 +82,7 @@ def compile_kernels() -> None:
         return
     i, j = (v.ravel() for v in np.meshgrid(np.arange(4), np.arange(4)))
     at = (5 * j + i)[:, None]
-    triangles = np.concatenate([at + [0, 1, 6], at + [0, 6, 5]])
+    triangles = (at[:, None] + np.array([[0, 1, 6], [0, 6, 5]])).reshape(-1, 3)
     points = np.column_stack([np.tile(np.arange(5), 5), np.repeat(np.arange(5), 5)]) / 4
     lay_out(size_field(Mesh(points, triangles)), tris_per_block=4, effort=1)
 
