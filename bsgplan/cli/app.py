@@ -26,6 +26,7 @@ COMMANDS = {
     "info": ("bsgplan.cli.info:info", "Show what is in a mesh."),
     "convert": ("bsgplan.cli.convert:convert", "Write a mesh in another format."),
     "estimate": ("bsgplan.cli.estimate:estimate", "Plan the blocks of a mesh."),
+    "sweep": ("bsgplan.cli.sweep:sweep", "Plan many meshes at many block sizes into a CSV file."),
     "pattern": ("bsgplan.cli.pattern:pattern", "Show what a pattern is worth."),
     "patterns": ("bsgplan.cli.patterns:patterns", "Find the best patterns of a transition."),
     "paper": ("bsgplan.cli.paper:paper", "Reproduce every table and figure of the paper."),

@@ -77,4 +77,4 @@ def to_vertices(mesh: Mesh, triangle_values: Floats) -> Floats:
 
 def to_corners(mesh: Mesh, triangle_values: Floats) -> Floats:
     """Return the sum of the values of the triangles around each vertex, (n_points,)."""
-    return sum((sums_by(corner, triangle_values, mesh.n_points) for corner in mesh.triangles.T), start=0.0)
+    return np.asarray(sum(sums_by(corner, triangle_values, mesh.n_points) for corner in mesh.triangles.T))

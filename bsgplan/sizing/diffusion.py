@@ -66,7 +66,8 @@ def filtered(mesh: Mesh, values: Floats, length: Floats, response: Callable[[Flo
 
 def _series(response: Callable[[Floats], Floats], bound: float) -> Floats:
     """Return the shortest Chebyshev series of the response on 0 .. bound, exact at 0."""
-    full = chebyshev.chebinterpolate(lambda z: response((z + 1) * bound / 2), LARGEST_DEGREE)
+    nodes = chebyshev.chebpts1(LARGEST_DEGREE + 1)
+    full = chebyshev.chebfit(nodes, response((nodes + 1) * bound / 2), LARGEST_DEGREE)
     missed = np.cumsum(np.abs(full)[::-1])[::-1]
     degree = int(np.argmax(np.append(missed[1:], 0.0) < RESPONSE_ERROR))
     kept = full[: max(degree, 1) + 1]

@@ -44,8 +44,8 @@ def gradient_jumps(mesh: Mesh) -> csr_array:
         values[edge, side] = start + end
     inner = np.flatnonzero(~topology.is_boundary_edge)
     values = values[inner] * least[inner, None]
-    start = np.arange(0, 4 * len(inner) + 1, 4)
-    return csr_array((values.ravel(), columns[inner].ravel(), start), shape=(len(inner), mesh.n_points))
+    rows = np.arange(0, 4 * len(inner) + 1, 4)
+    return csr_array((values.ravel(), columns[inner].ravel(), rows), shape=(len(inner), mesh.n_points))
 
 
 def fit_edges(mesh: Mesh, edge_values: Floats, reach: float) -> Floats:
