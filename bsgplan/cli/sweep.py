@@ -20,6 +20,7 @@ def sweep(
     objective: str = "balanced",
     size: str | None = None,
     lonlat: Annotated[bool, Parameter(negative=(), show_default=False)] = False,
+    split_quads: Annotated[bool, Parameter(negative=(), show_default=False)] = False,
     persistence: float = 1.3,
     plateau: float = 0.05,
     gradient_limit: float = 0.6,
@@ -47,6 +48,8 @@ def sweep(
         A point or cell array of each file that holds the edge length wanted; default: the mesh's own edges.
     lonlat
         The coordinates are degrees of longitude and latitude.
+    split_quads
+        Split each quad into two triangles, and plan those too.
     persistence
         Fine and coarse spots whose sizes differ by less than this ratio are noise.
     plateau
@@ -70,14 +73,13 @@ def sweep(
         raise InvalidOption(
             "--workers are those of this machine, --scheduler has its own; give one of the two"
         )
-    for file in files:
-        check_writable(out, source=Path(file))
+    check_writable(out, sources=[Path(file) for file in files])
     with stages() as progress:
         rows = sweep_files(
             files,
             out,
             block_sizes=sizes,
-            options=Options(objective, size, lonlat, persistence, plateau, gradient_limit),
+            options=Options(objective, size, lonlat, split_quads, persistence, plateau, gradient_limit),
             n_workers=workers,
             scheduler=scheduler,
             progress=progress,

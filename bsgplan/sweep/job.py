@@ -49,6 +49,7 @@ class Options:
     objective: str = "balanced"
     size: str | None = None
     is_lonlat: bool = False
+    split_quads: bool = False
     persistence: float = 1.3
     plateau: float = 0.05
     gradient_limit: float = 0.6
@@ -57,7 +58,8 @@ class Options:
         words = [f"objective={self.objective}", f"persistence={self.persistence:g}"]
         words += [f"plateau={self.plateau:g}", f"gradient-limit={self.gradient_limit:g}"]
         words += [f"size={self.size}"] if self.size is not None else []
-        return " ".join([*words, "lonlat"] if self.is_lonlat else words)
+        words += ["lonlat"] if self.is_lonlat else []
+        return " ".join([*words, "split-quads"] if self.split_quads else words)
 
 
 @dataclass(frozen=True)
@@ -117,7 +119,8 @@ def plan_rows(job: Job) -> list[Row]:
 def _open(job: Job) -> MeshFile:
     from ..io import read, read_lonlat
 
-    return read_lonlat(job.path) if job.options.is_lonlat else read(job.path)
+    opened = read_lonlat if job.options.is_lonlat else read
+    return opened(job.path, split_quads=job.options.split_quads)
 
 
 def _plan(job: Job, mesh_file: MeshFile, tris_per_block: int) -> PlannedMesh:
