@@ -6,6 +6,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import coo_array
 
 Floats: TypeAlias = NDArray[np.float64]
 Ints: TypeAlias = NDArray[np.int64]
@@ -34,6 +35,18 @@ def frozen_ints(values: Any) -> Ints:
     """
     array = np.ascontiguousarray(values, dtype=np.int64)
     return _frozen(array, values)
+
+
+def grouped(index: Ints, n: int) -> tuple[Ints, Ints]:
+    """Return the stable order of indices 0 .. n - 1, and the start of each in it, (n + 1,); linear in time.
+
+    >>> [part.tolist() for part in grouped(np.array([1, 0, 1]), 2)]
+    [[1, 0, 2], [0, 1, 3]]
+    """
+    index = index.ravel()
+    position = np.arange(len(index))
+    by_index = coo_array((np.ones(len(index), np.int8), (index, position)), shape=(n, len(index))).tocsr()
+    return by_index.indices.astype(np.int64), by_index.indptr.astype(np.int64)
 
 
 def sums_by(index: Ints, values: Floats, n: int) -> Floats:

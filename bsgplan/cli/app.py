@@ -28,6 +28,7 @@ COMMANDS = {
     "convert": ("bsgplan.cli.convert:convert", "Write a mesh in another format."),
     "estimate": ("bsgplan.cli.estimate:estimate", "Plan the blocks of a mesh."),
     "layout": ("bsgplan.cli.layout:layout", "Lay the whole mesh out in blocks and cut them into a grid."),
+    "sweep": ("bsgplan.cli.sweep:sweep", "Plan many meshes at many block sizes into a CSV file."),
     "pattern": ("bsgplan.cli.pattern:pattern", "Show what a pattern is worth."),
     "patterns": ("bsgplan.cli.patterns:patterns", "Find the best patterns of a transition."),
     "paper": ("bsgplan.cli.paper:paper", "Reproduce every table and figure of the paper."),

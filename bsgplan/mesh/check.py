@@ -6,7 +6,7 @@ import numpy as np
 
 from ..arrays import RELATIVE_TOLERANCE, Bools, Floats, Ints
 from ..errors import InvalidMesh
-from .quality import signed_areas
+from .quality import corner_edge_lengths, signed_areas
 
 SMALLEST_EXTENT, LARGEST_EXTENT = 1e-60, 1e60
 """Extents between which squares and fourth powers of lengths stay within double precision."""
@@ -53,8 +53,7 @@ def check_mesh(points: Floats, triangles: Ints) -> None:
         raise InvalidMesh(f"the mesh is {extent:g} across, beyond reckoning; give it in another unit")
     with np.errstate(over="ignore", invalid="ignore"):
         areas = signed_areas(points, triangles)
-        corners = points[triangles]
-        longest = ((corners - np.roll(corners, 1, axis=1)) ** 2).sum(axis=2).max(axis=1)
+        longest = corner_edge_lengths(points, triangles).max(axis=1) ** 2
         is_flat = ~(np.abs(areas) > FLAT * longest)
     if is_flat.any():
         raise InvalidMesh(_first(is_flat, triangles, "zero area", "clean the mesh first"))

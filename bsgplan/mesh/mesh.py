@@ -72,8 +72,8 @@ class Mesh:
     @cached_property
     def edge_lengths(self) -> Floats:
         """Length of each edge of the topology, (n_edges,), length."""
-        start, end = self.points[self.topology.edges].swapaxes(0, 1)
-        return np.linalg.norm(end - start, axis=1)
+        start, end = self.topology.edges.T
+        return quality.lengths(self.points[end] - self.points[start])
 
     @cached_property
     def qualities(self) -> Floats:
@@ -83,7 +83,8 @@ class Mesh:
     @cached_property
     def centroids(self) -> Floats:
         """Centroid of each triangle, (n_triangles, 2 or 3), length."""
-        return self.points[self.triangles].mean(axis=1)
+        a, b, c = (self.points[corner] for corner in self.triangles.T)
+        return (a + b + c) / 3
 
     @cached_property
     def vertex_irregularity(self) -> Ints:

@@ -6,30 +6,50 @@ Intrinsic: in space the gradient of a triangle lies in its plane.
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import coo_array, csr_array
+from scipy.sparse import csr_array, diags_array
 
 from ..arrays import Floats, sums_by
 from .mesh import Mesh
 
 
-def hat_gradients(mesh: Mesh) -> Floats:
-    """Return the gradient of each corner's hat function, (n_triangles, 3, 2 or 3), 1/length."""
-    corners = mesh.points[mesh.triangles]
-    opposite = corners[:, [2, 0, 1]] - corners[:, [1, 2, 0]]
-    if mesh.is_planar:
-        turned = np.stack([-opposite[..., 1], opposite[..., 0]], axis=-1)
-    else:
-        normal = np.cross(opposite[:, 2], -opposite[:, 1])
-        normal /= np.linalg.norm(normal, axis=1, keepdims=True)
-        turned = np.cross(normal[:, None, :], opposite)
-    result: Floats = turned / (2 * mesh.areas)[:, None, None]
-    return result
-
-
 def gradient(mesh: Mesh, values: Floats) -> Floats:
     """Return the gradient of vertex values in each triangle, (n_triangles, 2 or 3), value/length."""
-    result: Floats = np.einsum("tci,tc->ti", hat_gradients(mesh), values[mesh.triangles])
-    return result
+    a, b, c = mesh.triangles.T
+    u, v = mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]
+    along_u, along_v = values[b] - values[a], values[c] - values[a]
+    if mesh.is_planar:
+        slope = np.column_stack(
+            [along_u * v[:, 1] - along_v * u[:, 1], along_v * u[:, 0] - along_u * v[:, 0]]
+        )
+        return np.asarray(slope / (2 * mesh.areas)[:, None])
+    uu, uv, vv = (np.einsum("ij,ij->i", p, q) for p, q in ((u, u), (u, v), (v, v)))
+    slope = (vv * along_u - uv * along_v)[:, None] * u + (uu * along_v - uv * along_u)[:, None] * v
+    return np.asarray(slope / (4 * mesh.areas**2)[:, None])
+
+
+def cotangents(mesh: Mesh) -> Floats:
+    """Return the cotangent of the angle at each corner, (n_triangles, 3)."""
+    squares = mesh.corner_edge_lengths**2
+    return np.asarray((squares.sum(axis=1, keepdims=True) - 2 * squares) / (4 * mesh.areas)[:, None])
+
+
+def edge_weights(mesh: Mesh, conductivity: Floats | None = None) -> Floats:
+    """Return what the stiffness matrix holds for each edge, sign turned, (n_edges,).
+
+    Half the conductivity times the cotangent of the angle opposite, summed over the triangles beside it.
+    """
+    opposite = (
+        cotangents(mesh) / 2 if conductivity is None else cotangents(mesh) * (conductivity / 2)[:, None]
+    )
+    return sums_by(mesh.topology.cell_edges, opposite[:, [2, 0, 1]], len(mesh.topology.edges))
+
+
+def between_ends(mesh: Mesh, weights: Floats) -> csr_array:
+    """Return the upper triangular matrix with one value for each edge, (n_points, n_points)."""
+    low, high = mesh.topology.edges.T
+    start = np.concatenate([[0], np.cumsum(np.bincount(low, minlength=mesh.n_points))])
+    small = np.int32 if len(low) < np.iinfo(np.int32).max else np.int64
+    return csr_array((weights, high.astype(small), start.astype(small)), shape=(mesh.n_points, mesh.n_points))
 
 
 def stiffness(mesh: Mesh, conductivity: Floats | None = None) -> csr_array:
@@ -37,26 +57,24 @@ def stiffness(mesh: Mesh, conductivity: Floats | None = None) -> csr_array:
 
     conductivity is one value c a triangle (default 1).
     """
-    hats = hat_gradients(mesh)
-    weight = mesh.areas if conductivity is None else mesh.areas * conductivity
-    local = np.einsum("tci,tdi,t->tcd", hats, hats, weight)
-    rows = np.repeat(mesh.triangles, 3, axis=1).ravel()
-    columns = np.tile(mesh.triangles, (1, 3)).ravel()
-    return coo_array((local.ravel(), (rows, columns)), shape=(mesh.n_points, mesh.n_points)).tocsr()
+    upper = between_ends(mesh, -edge_weights(mesh, conductivity))
+    both = upper + upper.T
+    return csr_array(both - diags_array(both.sum(axis=1)))
 
 
 def vertex_areas(mesh: Mesh) -> Floats:
     """Return a third of the area of the triangles around each vertex, (n_points,), length**2."""
-    return sums_by(mesh.triangles, np.repeat(mesh.areas / 3, 3), mesh.n_points)
+    return to_corners(mesh, mesh.areas / 3)
 
 
 def to_vertices(mesh: Mesh, triangle_values: Floats) -> Floats:
     """Return the area-weighted mean of triangle values around each vertex, (n_points, ...)."""
-    values = triangle_values.reshape(mesh.n_triangles, -1) * mesh.areas[:, None]
-    flat = mesh.triangles.ravel()
-    sums = [sums_by(flat, np.repeat(column, 3), mesh.n_points) for column in values.T]
-    area = sums_by(flat, np.repeat(mesh.areas, 3), mesh.n_points)
-    result: Floats = (np.column_stack(sums) / area[:, None]).reshape(
-        mesh.n_points, *triangle_values.shape[1:]
-    )
-    return result
+    values = triangle_values.reshape(mesh.n_triangles, -1)
+    sums = [to_corners(mesh, column * mesh.areas) for column in values.T]
+    means = np.column_stack(sums) / to_corners(mesh, mesh.areas)[:, None]
+    return np.asarray(means.reshape(mesh.n_points, *triangle_values.shape[1:]))
+
+
+def to_corners(mesh: Mesh, triangle_values: Floats) -> Floats:
+    """Return the sum of the values of the triangles around each vertex, (n_points,)."""
+    return np.asarray(sum(sums_by(corner, triangle_values, mesh.n_points) for corner in mesh.triangles.T))

@@ -16,7 +16,7 @@ def signed_areas(points: Floats, triangles: Ints) -> Floats:
     >>> signed_areas(np.array([[0.0, 0], [1, 0], [0, 1]]), np.array([[0, 1, 2], [0, 2, 1]]))
     array([ 0.5, -0.5])
     """
-    a, b, c = points[triangles].swapaxes(0, 1)
+    a, b, c = (points[corner] for corner in triangles.T)
     u, v = b - a, c - a
     if points.shape[1] == 2:
         return 0.5 * (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
@@ -25,8 +25,17 @@ def signed_areas(points: Floats, triangles: Ints) -> Floats:
 
 def corner_edge_lengths(points: Floats, triangles: Ints) -> Floats:
     """Return the length of the edge opposite each corner, (n_triangles, 3), length."""
-    corners = points[triangles]
-    return np.linalg.norm(corners[:, [2, 0, 1]] - corners[:, [1, 2, 0]], axis=-1)
+    a, b, c = (points[corner] for corner in triangles.T)
+    return np.column_stack([lengths(side) for side in (c - b, a - c, b - a)])
+
+
+def lengths(vectors: Floats) -> Floats:
+    """Return the lengths of vectors, (n, 2 or 3).
+
+    >>> lengths(np.array([[3.0, 4.0]]))
+    array([5.])
+    """
+    return np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
 
 
 def mean_ratio(areas: Floats, lengths: Floats) -> Floats:

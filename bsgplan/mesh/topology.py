@@ -13,7 +13,7 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from ..arrays import Bools, Ints
+from ..arrays import Bools, Ints, grouped
 from ..errors import InvalidMesh
 
 
@@ -57,7 +57,21 @@ class Topology:
     @cached_property
     def neighbours(self) -> Ints:
         """Pairs of cells that share an edge, (n_interior_edges, 2)."""
-        return self.edge_cells[~self.is_boundary_edge]
+        return self.edge_cells[np.flatnonzero(~self.is_boundary_edge)]
+
+    @cached_property
+    def across(self) -> Ints:
+        """Cell across each edge of each cell, (n_cells, n_corners); -1 where there is none."""
+        first, second = self.edge_cells.T
+        own = np.arange(len(self.cells))
+        columns = [np.where(first[e] == own, second[e], first[e]) for e in self.cell_edges.T]
+        return np.column_stack(columns)
+
+    @cached_property
+    def cells_around(self) -> tuple[Ints, Ints]:
+        """The cells at each vertex, one after the other, and where those of each begin, (n_points + 1,)."""
+        order, start = grouped(self.cells, self.n_points)
+        return order // self.cells.shape[1], start
 
     @cached_property
     def component(self) -> Ints:
@@ -139,21 +153,23 @@ def topology(cells: Ints, n_points: int) -> Topology:
     >>> topology(np.array([[0, 1, 2], [1, 3, 2]]), 4).edges.tolist()
     [[0, 1], [0, 2], [1, 2], [1, 3], [2, 3]]
     """
-    ends = np.stack([cells, np.roll(cells, -1, axis=1)], axis=-1).reshape(-1, 2)
-    ends = np.sort(ends, axis=1)
-    key = ends[:, 0] * np.int64(n_points) + ends[:, 1]
-    order = np.argsort(key, kind="stable")
-    is_new = np.ones(len(key), dtype=bool)
-    is_new[1:] = key[order][1:] != key[order][:-1]
-    edge_of_rank = np.cumsum(is_new) - 1
+    n_corners = cells.shape[1]
+    start = cells.ravel()
+    end = np.roll(cells, -1, axis=1).ravel()
+    low, high = np.minimum(start, end), np.maximum(start, end)
+    order, _ = grouped(high, n_points)
+    order = order[grouped(low[order], n_points)[0]]  # by the smaller end, then the larger, then the cell
+    low, high = low[order], high[order]
+    is_new = np.ones(len(order), dtype=bool)
+    is_new[1:] = (low[1:] != low[:-1]) | (high[1:] != high[:-1])
     first = np.flatnonzero(is_new)
-    count = np.diff(first, append=len(key))
-    edges = ends[order[first]]
+    count = np.diff(first, append=len(order))
+    edges = np.column_stack([low[first], high[first]])
     if len(count) and count.max() > 2:
         raise InvalidMesh(_non_manifold(edges, count))
-    cell_edges = np.empty(len(key), dtype=np.int64)
-    cell_edges[order] = edge_of_rank
-    cell_of_rank = order // cells.shape[1]
+    cell_edges = np.empty(len(order), dtype=np.int64)
+    cell_edges[order] = np.cumsum(is_new) - 1
+    cell_of_rank = order // n_corners
     edge_cells = np.full((len(edges), 2), -1, dtype=np.int64)
     edge_cells[:, 0] = cell_of_rank[first]
     is_inner = count == 2

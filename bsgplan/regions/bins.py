@@ -5,9 +5,11 @@ Produces bin edges of all regions in one array, bins of equal weight, and the bi
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
-from ..arrays import Floats, Ints
+from ..arrays import Floats, Ints, sums_by
 from ..sizing import SizeField
 
 SAMPLES = 8
@@ -27,15 +29,19 @@ LEAST_SPAN = 1e-9
 def bin_edges(size: SizeField, label: Ints) -> tuple[Floats, Ints]:
     """Return the bin edges of all regions in one array, and the first bin of each region, (n_labels + 1,)."""
     n_labels = int(label.max()) + 1
-    log_h = size.log_h[size.mesh.triangles]
-    middle = log_h.mean(axis=1)
+    a, b, c = (size.log_h[corner] for corner in size.mesh.triangles.T)
+    middle, lowest, highest = (
+        (a + b + c) / 3,
+        np.minimum(np.minimum(a, b), c),
+        np.maximum(np.maximum(a, b), c),
+    )
     order = np.lexsort((middle, label))
     weight = size.triangle_weights[order]
     total = np.bincount(label, size.triangle_weights, n_labels)
     n_bins = np.clip(total / TRIANGLES_PER_BIN, 1, MOST_BINS).astype(np.int64)
     low, high = np.full(n_labels, np.inf), np.full(n_labels, -np.inf)
-    np.minimum.at(low, label, log_h.min(axis=1))
-    np.maximum.at(high, label, log_h.max(axis=1))
+    np.minimum.at(low, label, lowest)
+    np.maximum.at(high, label, highest)
     high = np.maximum(high, low + LEAST_SPAN)
     start = np.concatenate([[0], np.cumsum(np.bincount(label, minlength=n_labels))])
     edges = []
@@ -50,19 +56,49 @@ def bin_edges(size: SizeField, label: Ints) -> tuple[Floats, Ints]:
     return np.concatenate(edges), np.concatenate([[0], np.cumsum(n_bins)])
 
 
-def bins_of_samples(size: SizeField, label: Ints, edges: Floats, first: Ints) -> Ints:
-    """Return the bin of each sample level of each triangle, (n_triangles, SAMPLES)."""
-    corners = np.sort(size.log_h[size.mesh.triangles], axis=1)
-    low, middle, high = corners[:, :1], corners[:, 1:2], corners[:, 2:]
-    share = (np.arange(SAMPLES) + 0.5) / SAMPLES
-    below = low + np.sqrt(share * (middle - low) * (high - low))
-    above = high - np.sqrt((1 - share) * (high - middle) * (high - low))
-    levels = np.where(share * (high - low) <= middle - low, below, above)
-    bottom, top = edges[first[:-1] + np.arange(len(first) - 1)], edges[first[1:] + np.arange(len(first) - 1)]
+def sums_over_bins(
+    size: SizeField, label: Ints, edges: Floats, first: Ints, values: Sequence[Floats]
+) -> list[Floats]:
+    """Return the sums over the bins of values of the triangles, each spread over the levels it spans."""
+    low, middle, high = _sorted_levels(size)
+    n_bins = int(first[-1])
+    lowest = _bins(low, label, edges, first)
+    is_one = lowest == _bins(high, label, edges, first)  # the whole triangle lies in one bin
+    one, more = np.flatnonzero(is_one), np.flatnonzero(~is_one)
+    levels = _samples(low[more], middle[more], high[more])
+    bins = [_bins(level, label[more], edges, first) for level in levels]
+    sums = []
+    for value in values:
+        total = sums_by(lowest[one], value[one], n_bins)
+        part = value[more] / SAMPLES
+        sums.append(sum((sums_by(b, part, n_bins) for b in bins), start=total))
+    return sums
+
+
+def _sorted_levels(size: SizeField) -> tuple[Floats, Floats, Floats]:
+    a, b, c = (size.log_h[corner] for corner in size.mesh.triangles.T)
+    low, high = np.minimum(a, b), np.maximum(a, b)
+    middle = np.maximum(low, np.minimum(high, c))
+    return np.minimum(low, c), middle, np.maximum(high, c)
+
+
+def _samples(low: Floats, middle: Floats, high: Floats) -> list[Floats]:
+    """Return the levels below which odd 2 SAMPLES-ths of each triangle's area lie, SAMPLES of (n,)."""
+    levels = []
+    for share in (np.arange(SAMPLES) + 0.5) / SAMPLES:
+        below = low + np.sqrt(share * (middle - low) * (high - low))
+        above = high - np.sqrt((1 - share) * (high - middle) * (high - low))
+        levels.append(np.where(share * (high - low) <= middle - low, below, above))
+    return levels
+
+
+def _bins(levels: Floats, label: Ints, edges: Floats, first: Ints) -> Ints:
+    """Return the bin of each level in the region of its label, (n,)."""
+    regions = np.arange(len(first) - 1)
+    bottom, top = edges[first[:-1] + regions], edges[first[1:] + regions]
     span = top - bottom
-    owner = np.repeat(np.arange(len(first) - 1), np.diff(first) + 1)
+    owner = np.repeat(regions, np.diff(first) + 1)
     ladder = 2 * owner + (edges - bottom[owner]) / span[owner]  # one increasing sequence for all regions
-    where = 2 * label[:, None] + (levels - bottom[label, None]) / span[label, None]
-    found = np.searchsorted(ladder, where, side="right") - 1 - label[:, None]
-    result: Ints = np.clip(found, first[label][:, None], first[label + 1][:, None] - 1)
-    return result
+    where = 2 * label + (levels - bottom[label]) / span[label]
+    found = np.searchsorted(ladder, where, side="right") - 1 - label
+    return np.asarray(np.clip(found, first[label], first[label + 1] - 1))

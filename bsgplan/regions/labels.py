@@ -1,4 +1,4 @@
-"""Small work on region labels, one integer a triangle: components, borders, smoothing, merging.
+"""Small work on region labels, one integer a triangle: components, numbers, merging.
 
 Every function keeps the promise of the segmentation: each triangle has exactly one label.
 """
@@ -8,12 +8,14 @@ from __future__ import annotations
 import heapq
 
 import numpy as np
-from scipy.sparse import coo_array, csr_array
+from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 
-from ..arrays import Bools, Floats, Ints, sums_by
+from ..arrays import Bools, Floats, Ints
 from ..mesh import Mesh
-from ..mesh.quality import angles
+
+SPARSE_KEYS = 8
+"""Keys that span more than so many times their number are ranked by sorting."""
 
 OWN_KIND = 4.0
 """A neighbour of a region's own kind, zone or transition, is as welcome as one with so much more border:
@@ -26,20 +28,31 @@ def compact(*keys: Ints) -> Ints:
     >>> compact(np.array([5, 5, 2]), np.array([0, 1, 7])).tolist()
     [1, 2, 0]
     """
-    label = np.unique(keys[0], return_inverse=True)[1].astype(np.int64)
+    label = _dense(keys[0])
     for key in keys[1:]:
-        second = np.unique(key, return_inverse=True)[1]
-        label = np.unique(label * (second.max() + 1) + second, return_inverse=True)[1].astype(np.int64)
+        second = _dense(key)
+        label = _dense(label * (second.max() + 1) + second)
     return label
+
+
+def _dense(key: Ints) -> Ints:
+    """Return the rank of each key among the distinct keys, (n,); in linear time where keys are small."""
+    low, high = int(key.min()), int(key.max())
+    if high - low > SPARSE_KEYS * len(key):
+        return np.unique(key, return_inverse=True)[1].astype(np.int64)
+    is_there = np.zeros(high - low + 1, dtype=bool)
+    is_there[key - low] = True
+    return (np.cumsum(is_there) - 1)[key - low]
 
 
 def connected(mesh: Mesh, label: Ints) -> Ints:
     """Return labels split into edge-connected pieces, (n_triangles,), numbered from 0."""
-    pairs = mesh.topology.neighbours
-    pairs = pairs[label[pairs[:, 0]] == label[pairs[:, 1]]]
-    n = mesh.n_triangles
-    graph = coo_array((np.ones(len(pairs), np.int8), (pairs[:, 0], pairs[:, 1])), shape=(n, n))
-    return connected_components(graph, directed=False)[1].astype(np.int64)
+    across, n = mesh.topology.across, mesh.n_triangles
+    is_link = np.column_stack([(label[column] == label) & (column >= 0) for column in across.T])
+    start = np.concatenate([[0], np.cumsum(np.count_nonzero(is_link, axis=1))])
+    links = across[is_link].astype(np.int32 if start[-1] < np.iinfo(np.int32).max else np.int64)
+    graph = csr_array((np.ones(len(links)), links, start.astype(links.dtype)), shape=(n, n))
+    return connected_components(graph, connection="strong")[1].astype(np.int64)  # symmetric: strong is weak
 
 
 def finest_first(label: Ints, log_h: Floats) -> Ints:
@@ -50,32 +63,6 @@ def finest_first(label: Ints, log_h: Floats) -> Ints:
     rank = np.empty(n, dtype=np.int64)
     rank[np.lexsort((np.arange(n), finest))] = np.arange(n)
     return rank[label]
-
-
-def smooth_borders(mesh: Mesh, label: Ints, average: csr_array, *, rounds: int) -> Ints:
-    """Return labels with their borders straightened, (n_triangles,); average is `ring_average` of the mesh.
-
-    Threshold dynamics [Merriman, Bence & Osher]: the indicator of each label is averaged over the
-    triangles around the vertices, four times, and each triangle takes the label that is strongest there;
-    rounds times. Only triangles near a border are touched; ties go to the smaller label. Last, teeth are
-    pulled: a triangle with two neighbours in one other region joins them.
-    """
-    for _ in range(rounds):
-        near = _near_border(mesh, label, 4)
-        wide = np.flatnonzero(_near_border(mesh, label, 8))
-        matrix = average[wide][:, wide]
-        names, local = np.unique(label[wide], return_inverse=True)
-        n_wide = len(wide)
-        share = csr_array((np.ones(n_wide), (np.arange(n_wide), local)), shape=(n_wide, len(names)))
-        for _ in range(4):
-            share = csr_array(matrix @ share)
-        strongest = names[_row_argmax(share)]
-        changed = label.copy()
-        changed[wide] = np.where(near[wide], strongest, label[wide])
-        if np.array_equal(changed, label):
-            break
-        label = changed
-    return _pull_teeth(mesh, label)
 
 
 def merge_small(
@@ -132,57 +119,10 @@ def _borders(mesh: Mesh, label: Ints, n: int) -> tuple[list[dict[int, int]], lis
     """Return the edges shared with each neighbour and the edges on the domain's boundary, per label."""
     topology = mesh.topology
     pairs = label[topology.neighbours]
-    pairs = np.sort(pairs[pairs[:, 0] != pairs[:, 1]], axis=1)
-    unique, count = np.unique(pairs, axis=0, return_counts=True)
+    pairs = np.sort(pairs[np.flatnonzero(pairs[:, 0] != pairs[:, 1])], axis=1)
+    key, count = np.unique(pairs[:, 0] * n + pairs[:, 1], return_counts=True)
     border: list[dict[int, int]] = [{} for _ in range(n)]
-    for (a, b), n_edges in zip(unique.tolist(), count.tolist(), strict=True):
+    for a, b, n_edges in zip((key // n).tolist(), (key % n).tolist(), count.tolist(), strict=True):
         border[a][b] = border[b][a] = n_edges
     rim = np.bincount(label[topology.edge_cells[topology.is_boundary_edge, 0]], minlength=n)
     return border, rim.tolist()
-
-
-def _near_border(mesh: Mesh, label: Ints, rings: int) -> Bools:
-    pairs = mesh.topology.neighbours
-    cut = pairs[label[pairs[:, 0]] != label[pairs[:, 1]]]
-    near = np.zeros(mesh.n_triangles, dtype=bool)
-    near[cut] = True
-    vertex = np.zeros(mesh.n_points, dtype=bool)
-    for _ in range(rings):
-        vertex[mesh.triangles[near]] = True
-        near = np.asarray(vertex[mesh.triangles].any(axis=1))
-    return near
-
-
-def ring_average(mesh: Mesh) -> csr_array:
-    """Return the matrix that averages triangle values around the corners, weighed by their angles.
-
-    Weighed by number, a border would creep from the fine side, with its many triangles, into the coarse.
-    """
-    n, rows = mesh.n_triangles, np.repeat(np.arange(mesh.n_triangles), 3)
-    corner = mesh.triangles.ravel()
-    angle = angles(mesh.corner_edge_lengths).ravel()
-    share = angle / (3 * sums_by(corner, angle, mesh.n_points)[corner])
-    spread = csr_array((np.ones(3 * n), (rows, corner)), shape=(n, mesh.n_points))
-    gather = csr_array((share, (corner, rows)), shape=(mesh.n_points, n))
-    return csr_array(spread @ gather)
-
-
-def _pull_teeth(mesh: Mesh, label: Ints) -> Ints:
-    topology = mesh.topology
-    sides = topology.edge_cells[topology.cell_edges]
-    neighbour = np.where(sides[..., 0] == np.arange(mesh.n_triangles)[:, None], sides[..., 1], sides[..., 0])
-    for turn in range(20):
-        around = np.where(neighbour >= 0, label[neighbour], -1)
-        twin = np.where(around[:, 0] == around[:, 1], around[:, 0], around[:, 2])
-        is_tooth = (np.count_nonzero(around == twin[:, None], axis=1) == 2) & (twin >= 0)
-        # one direction a turn, so that two teeth side by side cannot swap for ever
-        is_tooth &= (twin < label) if turn % 2 else (twin > label)
-        label = np.where(is_tooth, twin, label)
-    return label
-
-
-def _row_argmax(matrix: csr_array) -> Ints:
-    matrix.sort_indices()
-    row = np.repeat(np.arange(matrix.shape[0]), np.diff(matrix.indptr))
-    order = np.lexsort((matrix.indices, -np.round(matrix.data, 9), row))
-    return matrix.indices[order[matrix.indptr[:-1]]].astype(np.int64)

@@ -13,8 +13,9 @@ import numpy as np
 
 from ..arrays import Floats, Ints, frozen_floats, sums_by
 from ..mesh.operators import gradient
+from ..mesh.quality import lengths as lengths_of
 from ..sizing import SizeField
-from .bins import SAMPLES, bin_edges, bins_of_samples
+from .bins import bin_edges, sums_over_bins
 
 LEAST_COUNT = 1e-3
 """A front is given this many elements at least: in a region of one size no contour has a length."""
@@ -92,12 +93,9 @@ class Profile:
 def profiles(size: SizeField, label: Ints) -> list[Profile]:
     """Return the profile of each label, fine end first; label is one integer a triangle, 0 to n - 1."""
     edges, first = bin_edges(size, label)
-    bin_of = bins_of_samples(size, label, edges, first).ravel()
-    slope = np.linalg.norm(gradient(size.mesh, size.log_h), axis=1) * size.mesh.areas
-    weight, front, length, area = (
-        sums_by(bin_of, np.repeat(value / SAMPLES, SAMPLES), int(first[-1]))
-        for value in (size.triangle_weights, slope / size.triangle_h, slope, size.mesh.areas)
-    )
+    slope = lengths_of(gradient(size.mesh, size.log_h)) * size.mesh.areas
+    values = (size.triangle_weights, slope / size.triangle_h, slope, size.mesh.areas)
+    weight, front, length, area = sums_over_bins(size, label, edges, first, values)
     result = []
     for k in range(len(first) - 1):
         inside = slice(first[k], first[k + 1])

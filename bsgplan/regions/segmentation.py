@@ -13,6 +13,7 @@ from ..arrays import Bools, Floats, Ints, sums_by
 from ..mesh import Mesh
 from ..sizing import SizeField
 from . import labels
+from .borders import corner_shares, smooth_borders
 from .plateau import PLATEAU, plateaus, spread_of
 from .watershed import basins
 
@@ -50,10 +51,10 @@ def segment(
         width = LEAST_WIDTH * side
         return labels.merge_small(mesh, label, log_h, weight, kind=is_uniform, least=least, width=width)
 
-    average = labels.ring_average(mesh)
+    shares = corner_shares(mesh)
     for _ in range(3):
         label = labels.finest_first(merged(label), log_h)
-        label = labels.smooth_borders(mesh, label, average, rounds=6)
+        label = smooth_borders(mesh, label, shares, rounds=6)
         label = labels.finest_first(labels.connected(mesh, label), log_h)
     label = labels.finest_first(merged(label), log_h)
     return label, _level_share(label, weight, is_zone, log_h, persistence) >= LEVEL_SHARE

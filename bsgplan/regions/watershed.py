@@ -56,14 +56,22 @@ def _merge(edges: Ints, values: Floats, minima: Ints, basin: Ints, persistence: 
     first, second = basin[edges[:, 0]], basin[edges[:, 1]]
     is_border = first != second
     # edges that meet in one highest node have one height: the lower end decides, not the numbering
-    ends = np.sort(values[edges[is_border]], axis=1)[:, ::-1]
-    levels, saddle = np.unique(ends, axis=0, return_inverse=True)
-    tree = _lowest_saddles(first[is_border], second[is_border], saddle.ravel(), len(minima))
+    first, second = first[is_border], second[is_border]
+    low, high = np.sort(values[edges[np.flatnonzero(is_border)]], axis=1).T
+    pair, lowest = _lowest_of_pairs(first, second, low, high, len(minima))
+    order = np.lexsort((low[lowest], high[lowest]))
+    levels = high[lowest][order]
+    is_new = np.ones(len(order), dtype=bool)
+    is_new[1:] = (levels[1:] != levels[:-1]) | (low[lowest][order][1:] != low[lowest][order][:-1])
+    saddle = np.empty(len(order), dtype=np.int64)
+    saddle[order] = np.cumsum(is_new) - 1
+    levels = levels[is_new]
+    tree = _lowest_saddles(pair // len(minima), pair % len(minima), saddle, len(minima))
     depth = values[minima]
     label = np.arange(len(minima))
     sublevel = list(range(len(minima)))  # union-find over the components below the current saddle
     for a, b, rank in zip(*tree, strict=True):
-        height = levels[rank, 0]
+        height = levels[rank]
         root_a, root_b = _root(sublevel, a), _root(sublevel, b)
         if (depth[root_a], root_a) > (depth[root_b], root_b):
             root_a, root_b, a = root_b, root_a, b
@@ -77,18 +85,31 @@ def _merge(edges: Ints, values: Floats, minima: Ints, basin: Ints, persistence: 
         label = further
 
 
+def _lowest_of_pairs(
+    first: Ints, second: Ints, low: Floats, high: Floats, n_basins: int
+) -> tuple[Ints, Ints]:
+    """Return the pairs of basins that meet, a n + b with a < b, and the index of the lowest edge of each."""
+    key, member = np.unique(
+        np.minimum(first, second) * np.int64(n_basins) + np.maximum(first, second), return_inverse=True
+    )
+    least = np.full(len(key), np.inf)
+    np.minimum.at(least, member, high)
+    tied = np.flatnonzero(high == least[member])
+    np.minimum.at(beyond := np.full(len(key), np.inf), member[tied], low[tied])
+    tied = tied[low[tied] == beyond[member[tied]]]
+    lowest = np.empty(len(key), dtype=np.int64)
+    lowest[member[tied]] = tied
+    return key, lowest
+
+
 def _lowest_saddles(
     first: Ints, second: Ints, saddle: Ints, n_basins: int
 ) -> tuple[list[int], list[int], list[int]]:
-    """Return the minimum spanning tree of the basins over the ranks of their saddles, lowest first."""
+    """Return the minimum spanning tree of pairs of basins over the ranks of their saddles, lowest first."""
     if not len(saddle):
         return [], [], []
-    a, b = np.minimum(first, second), np.maximum(first, second)
-    order = np.lexsort((b, a, saddle))
-    key = a[order] * np.int64(n_basins) + b[order]
-    order = order[np.unique(key, return_index=True)[1]]
-    weight = saddle[order] + 1.0  # positive, as csgraph takes 0 for no edge
-    graph = coo_array((weight, (a[order], b[order])), shape=(n_basins, n_basins)).tocsr()
+    weight = saddle + 1.0  # positive, as csgraph takes 0 for no edge
+    graph = coo_array((weight, (first, second)), shape=(n_basins, n_basins)).tocsr()
     tree = minimum_spanning_tree(graph).tocoo()
     by_height = np.lexsort((tree.col, tree.row, tree.data))
     ranks = tree.data[by_height].astype(np.int64) - 1

@@ -14,8 +14,9 @@ from ..planning import Plan
 from ..regions.contours import contour_segments, front_levels, vertex_charges
 from ..regions.region import UNIFORM
 from ..sizing.charge import NOISE
+from ..sizing.diffusion import SLIVER
 from ..sizing.field import EQUILATERAL
-from ..sizing.smoothing import SLIVER, SOLVER_TOLERANCE
+from ..sizing.smoothing import SOLVER_TOLERANCE
 from .figure_labels import colour_indices, neighbour_pairs
 from .figure_view import GlobeMap, View, view_of
 

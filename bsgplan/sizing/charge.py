@@ -16,8 +16,8 @@ import numpy as np
 from ..arrays import Floats, Ints, sums_by
 from ..mesh import Mesh
 from ..mesh.operators import gradient, to_vertices
-from ..mesh.quality import angles
-from .smoothing import diffuse
+from ..mesh.quality import angles, lengths
+from .diffusion import filtered, gently
 
 if TYPE_CHECKING:
     from .field import SizeField
@@ -29,25 +29,26 @@ NOISE = 0.1
 """Noise floor of the charge of a region at least five sizes wide, in units of iota."""
 
 
-def edge_fluxes(size: SizeField, *, reach: float = REACH) -> Floats:
+def edge_fluxes(size: SizeField) -> Floats:
     """Return the charge that flows through corner edges outwards, (n_triangles, 3), in units of iota.
 
     Column i belongs to the edge from corner i to corner i + 1, -(3/pi) g . n times its length; the two
     triangles of an edge have opposite values. On a surface its own curvature is added, -(3/pi) times the
     angle that is missing at corner i, so that a closed one has -6 chi in all.
     """
-    mesh = size.mesh
-    slope = smooth_slope(size, reach)
-    start, end = mesh.triangles, np.roll(mesh.triangles, -1, axis=1)
-    along = mesh.points[end] - mesh.points[start]
-    if mesh.is_planar:
-        outward = np.stack([along[..., 1], -along[..., 0]], axis=-1)
-    else:
-        a, b, c = mesh.points[mesh.triangles].swapaxes(0, 1)
-        normal = np.cross(b - a, c - a)
-        normal /= np.linalg.norm(normal, axis=1, keepdims=True)
-        outward = np.cross(along, normal[:, None, :])
-    flux = np.einsum("tci,tci->tc", outward, (slope[start] + slope[end]) / 2)
+    mesh, slope = size.mesh, wide_slope(size)
+    corners = mesh.triangles.T
+    points, slopes = [mesh.points[c] for c in corners], [slope[c] for c in corners]
+    if not mesh.is_planar:
+        normal = np.cross(points[1] - points[0], points[2] - points[0])
+        normal /= lengths(normal)[:, None]
+    flux = np.empty(mesh.triangles.shape)
+    for k in range(3):
+        along, both = points[(k + 1) % 3] - points[k], slopes[(k + 1) % 3] + slopes[k]
+        if mesh.is_planar:
+            flux[:, k] = (along[:, 1] * both[:, 0] - along[:, 0] * both[:, 1]) / 2
+        else:
+            flux[:, k] = np.einsum("ti,ti->t", np.cross(along, normal), both) / 2
     if not mesh.is_planar:
         flux = _balanced(mesh, flux) + _corner_curvature(mesh)
     return np.asarray(-3 / np.pi * flux)
@@ -76,14 +77,12 @@ def region_charges(label: Ints, fluxes: Floats) -> Floats:
     return sums_by(label, fluxes.sum(axis=1), int(label.max()) + 1)
 
 
-def smooth_slope(size: SizeField, reach: float) -> Floats:
+def wide_slope(size: SizeField, reach: float = REACH) -> Floats:
     """Return grad(log h) at the vertices, averaged over reach local sizes, (n_points, 2 or 3), 1/length.
 
-    What is averaged is grad(h) = h grad(log h), which is constant where h grows linearly from a wall, and
-    what the average loses is averaged once more and added: one-sided means at the walls then cost little.
+    What is averaged is grad(h) = h grad(log h), which is constant where h grows linearly from a wall; the
+    average is gentle, see `diffusion.gently`.
     """
     mesh, h = size.mesh, size.triangle_h
     growth = to_vertices(mesh, gradient(mesh, size.log_h) * h[:, None])
-    once = diffuse(mesh, growth, reach * h)
-    twice = once + diffuse(mesh, growth - once, reach * h)
-    return np.asarray(twice / size.h[:, None])
+    return filtered(mesh, growth, reach * h, gently) / size.h[:, None]

@@ -14,9 +14,9 @@ import numpy as np
 from ..arrays import Floats, frozen_floats
 from ..errors import InvalidSize
 from ..mesh import Mesh
-from ..mesh.operators import gradient
+from ..mesh.operators import gradient, to_vertices
 from .charge import edge_fluxes
-from .smoothing import smooth_gradient
+from .diffusion import diffuse
 
 EQUILATERAL = np.sqrt(3) / 4
 """Area of an equilateral triangle of edge 1."""
@@ -66,8 +66,8 @@ class SizeField:
     @cached_property
     def slope(self) -> Floats:
         """grad(log h) at the vertices, averaged over one local size, (n_points, 2 or 3), 1/length."""
-        triangle_slope = gradient(self.mesh, self.log_h)
-        return frozen_floats(smooth_gradient(self.mesh, triangle_slope, self.triangle_h))
+        slope = to_vertices(self.mesh, gradient(self.mesh, self.log_h))
+        return frozen_floats(diffuse(self.mesh, slope, self.triangle_h))
 
     @cached_property
     def fluxes(self) -> Floats:

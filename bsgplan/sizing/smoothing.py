@@ -6,17 +6,16 @@ space passes unchanged up to the wall, where plain diffusion would flatten it wi
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
-from scipy.sparse import csr_array, dia_array
+from scipy.sparse import csr_array
 from scipy.sparse.linalg import LinearOperator, cg
 
-from ..arrays import Floats
+from ..arrays import Floats, sums_by
 from ..mesh import Mesh
-from ..mesh.operators import hat_gradients, stiffness, to_vertices, vertex_areas
-
-SLIVER = 0.3
-"""Mean ratio below which a triangle's stiffness is damped: cotangents of slivers grow without bound and
-would tie their corners together. Real meshes have a mean ratio of .9; this touches under 1 % of them."""
+from ..mesh.operators import between_ends, cotangents
+from .diffusion import SLIVER
 
 SOLVER_TOLERANCE = 1e-4
 """Relative residual of the smoothers: sizes are known to a few percent, so four digits are plenty."""
@@ -26,25 +25,27 @@ def gradient_jumps(mesh: Mesh) -> csr_array:
     """Return the jump of the normal gradient across each interior edge, (n_interior_edges, n_points).
 
     Dimensionless: the jump times the length of the edge, that is h^2 / sqrt(3) times the second derivative
-    across it. Zero for a linear field, also at the wall.
+    across it. Zero for a linear field, also at the wall. In cotangents: cot a + cot b for the corner opposite
+    the edge a b of a triangle, -cot b for a, -cot a for b.
     """
-    topology = mesh.topology
-    hats = hat_gradients(mesh)
-    edges = np.flatnonzero(~topology.is_boundary_edge)
-    cells = topology.edge_cells[edges]
-    rows, columns, values = [], [], []
-    for side in (0, 1):
-        cell = cells[:, side]
-        corner = (np.argmax(topology.cell_edges[cell] == edges[:, None], axis=1) + 2) % 3
-        opposite = hats[cell, corner]
-        outward = -opposite / np.linalg.norm(opposite, axis=1, keepdims=True)
-        rows.append(np.repeat(np.arange(len(edges)), 3))
-        columns.append(mesh.triangles[cell].ravel())
-        values.append(np.einsum("eci,ei->ec", hats[cell], outward).ravel())
-    damping = np.minimum(mesh.qualities[cells].min(axis=1) / SLIVER, 1.0)
-    weight = np.tile(np.repeat(mesh.edge_lengths[edges] * damping, 3), 2)
-    entries = (weight * np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
-    return csr_array(entries, shape=(len(edges), mesh.n_points))
+    topology, cotangent = mesh.topology, cotangents(mesh)
+    damping = np.minimum(mesh.qualities / SLIVER, 1.0)
+    n_edges, own = len(topology.edges), np.arange(mesh.n_triangles)
+    least = np.minimum(*damping[topology.edge_cells.T])  # of boundary edges any: they are dropped below
+    columns, values = np.empty((n_edges, 4), dtype=np.int32), np.zeros((n_edges, 4))
+    columns[:, :2] = topology.edges
+    for k, edge in enumerate(topology.cell_edges.T):
+        start, end = cotangent[:, k], cotangent[:, (k + 1) % 3]
+        is_turned = mesh.triangles[:, k] > mesh.triangles[:, (k + 1) % 3]
+        values[:, 0] -= sums_by(edge, np.where(is_turned, start, end), n_edges)
+        values[:, 1] -= sums_by(edge, np.where(is_turned, end, start), n_edges)
+        side = 2 + (topology.edge_cells[edge, 0] != own)
+        columns[edge, side] = mesh.triangles[:, (k + 2) % 3]
+        values[edge, side] = start + end
+    inner = np.flatnonzero(~topology.is_boundary_edge)
+    values = values[inner] * least[inner, None]
+    rows = np.arange(0, 4 * len(inner) + 1, 4)
+    return csr_array((values.ravel(), columns[inner].ravel(), rows), shape=(len(inner), mesh.n_points))
 
 
 def fit_edges(mesh: Mesh, edge_values: Floats, reach: float) -> Floats:
@@ -60,53 +61,42 @@ def fit_edges(mesh: Mesh, edge_values: Floats, reach: float) -> Floats:
     i, j = mesh.topology.edges.T
     n = mesh.n_points
     degree = mesh.topology.valence
-    total = np.bincount(i, edge_values, n) + np.bincount(j, edge_values, n)
-    rows = np.concatenate([i, j, np.arange(n)])
-    columns = np.concatenate([j, i, np.arange(n)])
-    weights = np.concatenate([np.full(2 * len(i), 0.25), degree / 4])
-    normal = csr_array((weights, (rows, columns)), shape=(n, n))
-    return level + _regularised(mesh, normal, total / 2, total / degree, reach)
+    total = sums_by(i, edge_values, n) + sums_by(j, edge_values, n)
+    upper = between_ends(mesh, np.full(len(i), 0.25))
+    lower = upper.T
+
+    def normal(v: Floats) -> Floats:
+        return np.asarray(upper @ v + lower @ v + degree / 4 * v)
+
+    return level + _regularised(mesh, normal, degree / 4, total / 2, total / degree, reach)
 
 
 def smooth(mesh: Mesh, values: Floats, reach: float) -> Floats:
     """Return vertex values smoothed over reach local edge lengths, (n_points,), linear fields unchanged."""
-    identity = csr_array(_diagonal(np.full(mesh.n_points, 3.0)))
     level = values.mean()  # see `fit_edges`
-    return level + _regularised(mesh, identity, 3 * (values - level), values - level, reach)
+    v = values - level
+    three = np.full(mesh.n_points, 3.0)
+    return level + _regularised(mesh, lambda u: 3 * u, three, 3 * v, v, reach)
 
 
-def diffuse(mesh: Mesh, values: Floats, length: Floats) -> Floats:
-    """Return vertex values diffused over a local length, (n_points, ...): (M + K_{length^2}) v = M values.
-
-    length is one value a triangle, (n_triangles,). Keeps the mean; flattens at the wall.
-    """
-    mass = vertex_areas(mesh)
-    matrix = csr_array(
-        _diagonal(mass) + stiffness(mesh, length**2 * np.minimum(mesh.qualities / SLIVER, 1.0))
-    )
-    flat = values.reshape(mesh.n_points, -1)
-    columns = [_solve(matrix, mass * column, column) for column in flat.T]
-    result: Floats = np.column_stack(columns).reshape(values.shape)
-    return result
-
-
-def smooth_gradient(mesh: Mesh, triangle_gradient: Floats, length: Floats) -> Floats:
-    """Return triangle gradients averaged to the vertices over a local length, (n_points, 2 or 3)."""
-    return diffuse(mesh, to_vertices(mesh, triangle_gradient), length)
-
-
-def _regularised(mesh: Mesh, normal: csr_array, right: Floats, start: Floats, reach: float) -> Floats:
+def _regularised(
+    mesh: Mesh,
+    normal: Callable[[Floats], Floats],
+    diagonal: Floats,
+    right: Floats,
+    start: Floats,
+    reach: float,
+) -> Floats:
+    """Return the solution of (N + 8 reach^4 J^T J) u = right by conjugate gradients, J the gradient jumps."""
     jumps = gradient_jumps(mesh)
-    matrix = csr_array(normal + 8 * reach**4 * (jumps.T @ jumps))  # 8: see `fit_edges`
-    return _solve(matrix, right, start)
+    back, factor = jumps.T, 8 * reach**4  # 8: see `fit_edges`
+    diagonal = diagonal + factor * sums_by(jumps.indices, jumps.data**2, mesh.n_points)
+    shape = (mesh.n_points, mesh.n_points)
 
+    def product(v: Floats) -> Floats:
+        return np.asarray(normal(v) + factor * (back @ (jumps @ v)))
 
-def _solve(matrix: csr_array, right: Floats, start: Floats) -> Floats:
-    diagonal = matrix.diagonal()
-    inverse = LinearOperator(matrix.shape, matvec=lambda v: v / diagonal, dtype=np.float64)
+    matrix = LinearOperator(shape, matvec=product, dtype=np.float64)
+    inverse = LinearOperator(shape, matvec=lambda v: v / diagonal, dtype=np.float64)
     solution, _ = cg(matrix, right, x0=start, rtol=SOLVER_TOLERANCE, maxiter=500, M=inverse)
     return np.asarray(solution, dtype=np.float64)
-
-
-def _diagonal(values: Floats) -> dia_array:
-    return dia_array((values[None, :], [0]), shape=(len(values), len(values)))

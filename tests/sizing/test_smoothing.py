@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 from strategies import disc, jittered, meshes
 
 from bsgplan.mesh import Mesh
-from bsgplan.sizing.smoothing import diffuse, fit_edges, gradient_jumps, smooth
+from bsgplan.sizing.diffusion import diffuse
+from bsgplan.sizing.smoothing import fit_edges, gradient_jumps, smooth
 
 SLOPE = np.array([0.11, -0.07])
 

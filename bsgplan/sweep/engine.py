@@ -1,0 +1,82 @@
+"""Where the jobs of a sweep run: in processes of this machine, or on the workers of a Dask cluster.
+
+Both give each job back with its rows as soon as it is done. A worker that dies (out of memory, killed, a
+machine lost) costs its jobs one more try, and then a row with the error; the other jobs go on.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+
+from ..errors import InvalidOption, MeshReadError
+from .job import Job, Row, plan_rows
+from .table import DIED
+
+CONNECTING = 10.0
+"""Seconds to wait for a Dask scheduler."""
+
+
+def local(jobs: Sequence[Job], n_workers: int) -> Iterator[list[Row]]:
+    """Give the rows of each job, run in so many processes of this machine."""
+    if not jobs:
+        return
+    left = dict(enumerate(jobs))
+    with _pool(min(n_workers, len(jobs))) as pool:
+        futures = {pool.submit(plan_rows, job): k for k, job in left.items()}
+        try:
+            for future in as_completed(futures):
+                if not isinstance(future.exception(), BrokenProcessPool):
+                    del left[futures[future]]
+                    yield future.result()
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+    for (
+        job
+    ) in left.values():  # a dead worker takes its pool with it: each on its own now, to find the culprit
+        yield _alone(job)
+
+
+def _alone(job: Job) -> list[Row]:
+    with _pool(1) as pool:
+        try:
+            return pool.submit(plan_rows, job).result()
+        except BrokenProcessPool:
+            return job.failed(f"{DIED} on this mesh, twice or alone; is there enough memory?")
+
+
+def _pool(n_workers: int) -> ProcessPoolExecutor:
+    return ProcessPoolExecutor(n_workers, mp_context=multiprocessing.get_context("spawn"))
+
+
+def on_cluster(jobs: Sequence[Job], address: str) -> Iterator[list[Row]]:
+    """Give the rows of each job, run by the workers of the Dask scheduler at this address.
+
+    Files are read by the workers, under the same absolute paths. Raises InvalidOption where no scheduler
+    answers, MeshReadError where the extra is missing.
+    """
+    try:
+        import distributed
+    except ModuleNotFoundError:
+        raise MeshReadError("--scheduler needs Dask; pip install 'bsgplan[dask]'") from None
+    try:
+        client = distributed.Client(address, timeout=CONNECTING)
+    except (OSError, ValueError, TypeError) as error:
+        reason = str(error).splitlines()[0] if str(error) else type(error).__name__
+        raise InvalidOption(
+            f"--scheduler {address}: no scheduler answers there ({reason}); start one"
+        ) from None
+    with client:
+        futures = {client.submit(plan_rows, job, pure=False, retries=1): job for job in jobs}
+        for future in distributed.as_completed(list(futures)):
+            failure = future.exception()
+            job = futures[future]
+            if failure is None:
+                yield future.result()
+            elif type(failure).__name__ == "KilledWorker":
+                yield job.failed(f"{DIED} on this mesh, again and again; is there enough memory?")
+            else:
+                yield job.failed(f"{DIED} or lost the mesh: {type(failure).__name__}: {failure}")
