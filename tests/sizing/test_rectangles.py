@@ -122,7 +122,7 @@ def test_the_budget_of_a_formula_is_its_charge(name):
 
 
 def test_the_smoothing_is_far_under_the_length_of_the_transition():
-    """95 % of log h change within 3.7 WIDTH, and 3 local sizes are under an eighth of that."""
+    """95 % of the change lie within 3.7 WIDTH, and 3 local sizes are under an eighth of it."""
     for mesh in meshes("transition"):
         is_middle = np.abs(mesh.centroids[:, 0]) < 0.05
         assert REACH * size_field(mesh).triangle_h[is_middle].mean() < 3.7 * WIDTH / 8
