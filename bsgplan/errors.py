@@ -27,5 +27,9 @@ class NoPatternFits(BsgplanError, ValueError):  # noqa: N818
     """The input is valid, but no plan meets the request."""
 
 
+class PaperIsOff(NoPatternFits):
+    """A number of ours is not the one that it should be: `bsgplan paper` differs from the paper."""
+
+
 class OutputError(BsgplanError, OSError):
     """An output cannot be written."""

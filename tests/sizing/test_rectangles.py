@@ -110,7 +110,7 @@ def test_the_budget_read_off_a_mesh_is_the_charge_of_the_rectangle(name):
 
 @pytest.mark.parametrize("name", FIELDS)
 def test_the_budget_of_a_formula_is_its_charge(name):
-    """Sizes at the vertices by formula, calibrated to the mesh: what is left is the smoothing and the jags."""
+    """Sizes at the vertices by formula, calibrated to the mesh; smoothing and jagged sides are left."""
     mesh = meshes(name)[0]
     log_h = FIELDS[name][0](*mesh.points.T)
     scale = np.exp(np.mean(size_field(mesh).log_h - log_h))
