@@ -31,5 +31,9 @@ class LayoutRefused(BsgplanError, ValueError):  # noqa: N818
     """A layout or its grid does not verify, also after repair; nothing is written."""
 
 
+class PaperIsOff(NoPatternFits):
+    """A number of ours is not the one that it should be: `bsgplan paper` differs from the paper."""
+
+
 class OutputError(BsgplanError, OSError):
     """An output cannot be written."""

@@ -5,13 +5,11 @@ from __future__ import annotations
 import json
 import os
 from dataclasses import dataclass, field
-from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from .arrays import Floats
 from .atomic import replacing
 from .io import MeshFile, Projection
 from .io.file import RawMesh, quads_apart
@@ -35,12 +33,6 @@ class PlannedMesh:
         """The plan at the first block size."""
         return self.plans[0]
 
-    @cached_property
-    def scale(self) -> Floats | None:
-        """Plane metres per true metre at each point, (n_points,); None without a projection."""
-        projection = self.mesh_file.projection
-        return None if projection is None else projection.scale(self.mesh_file.mesh.points)
-
     def tables(self, *, all_candidates: bool = False) -> list[Table]:
         """Return the tables of the plan, or one table over the block sizes where there are several."""
         if len(self.plans) > 1:
@@ -49,7 +41,9 @@ class PlannedMesh:
 
     def document(self) -> dict[str, Any]:
         """Return the JSON document `bsgplan.estimate/1`."""
-        return plan_document.estimate_document(mesh_document(self.mesh_file), self.plans, scale=self.scale)
+        return plan_document.estimate_document(
+            mesh_document(self.mesh_file), self.plans, scale=self.mesh_file.scale
+        )
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the document to a JSON file, whole or not at all; raises OutputError."""
@@ -88,7 +82,6 @@ class PlannedMesh:
 def mesh_document(mesh_file: MeshFile) -> dict[str, Any]:
     """Return the document of a mesh file: what it holds and what can be measured on it."""
     projection, mesh = mesh_file.projection, mesh_file.mesh
-    scale = None if projection is None else projection.scale(mesh.points)
     quad_scale = None if projection is None else projection.scale(mesh_file.quad_points)
     found = mesh_file.description()
     bounds = mesh.bounds
@@ -98,7 +91,7 @@ def mesh_document(mesh_file: MeshFile) -> dict[str, Any]:
     return {
         "path": found["path"],
         "format": found["format"],
-        **mesh_report.measures(mesh, scale=scale),
+        **mesh_report.measures(mesh, scale=mesh_file.scale),
         "bounds": list(bounds),
         "quads": quad_measures(mesh_file.quad_points, mesh_file.quads, scale=quad_scale),
         **found,

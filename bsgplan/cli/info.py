@@ -56,7 +56,7 @@ def info(
     if json:
         sys.stdout.write(dumps({"schema": SCHEMA, "mesh": mesh}))
     else:
-        sys.stdout.write(mesh_report.text(mesh_report.rows(mesh)) + "\n")
+        show([mesh_report.mesh_table(mesh)])
 
 
 def _show_formats(*, is_json: bool) -> None:

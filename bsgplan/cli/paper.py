@@ -8,11 +8,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from ..errors import NoPatternFits
-
-
-class PaperIsOff(NoPatternFits):
-    """A number of ours is not the one that it should be: exit code 1."""
+from ..errors import PaperIsOff
 
 
 def paper(*, out: Path, json: Annotated[bool, Parameter(negative=())] = False) -> None:

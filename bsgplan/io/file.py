@@ -7,6 +7,7 @@ Invariants: rows of `point_data` are the mesh's points, rows of `cell_data` its 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -90,6 +91,11 @@ class MeshFile:
     """Names of the values of a cell array (physical groups, materials), by array and value."""
     is_renumbered: bool = False
     """True where the points are not numbered as in the file: dropped ones, or numbers in another order."""
+
+    @cached_property
+    def scale(self) -> Floats | None:
+        """Plane metres per true metre at each point, (n_points,); None without a projection."""
+        return None if self.projection is None else self.projection.scale(self.mesh.points)
 
     def __repr__(self) -> str:
         return f"MeshFile({self.path!r}, {self.format}, {self.mesh!r})"

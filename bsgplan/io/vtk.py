@@ -87,21 +87,16 @@ def write_plan(path: str | os.PathLike[str], plan: Plan, projection: Projection 
 
 def plan_front_lines(plan: Plan) -> FrontLines:
     """Return the fronts of the chosen patterns as contours: front k of n layers at depth k layers / n."""
-    side = float(np.sqrt(plan.tris_per_block))
-    dimension = plan.regions.size.mesh.points.shape[1]
-    segments, region, level = [np.empty((0, 2, dimension))], [np.empty(0, int)], [np.empty(0, int)]
-    log_h, depth = [np.empty(0)], [np.empty(0)]
-    for k, region_plan in enumerate(plan.region_plans):
-        if region_plan.chosen is None:
-            continue
-        profile = region_plan.region.profile
-        n_fronts = region_plan.chosen.pattern.n_fronts
-        levels, depths = front_levels(profile, n_fronts), np.linspace(0.0, profile.layers, n_fronts)
-        found, index = front_lines(plan.regions, k, levels)
-        segments.append(found)
-        region.append(np.full(len(index), k))
-        level.append(index)
-        log_h.append(levels[index])
-        depth.append(depths[index] / side)
-    joined = (np.concatenate(part) for part in (segments, region, level, log_h, depth))
-    return FrontLines(*joined)
+    levels, depths, n_before = {}, [], 0
+    first = np.zeros(len(plan.region_plans), dtype=np.int64)  # place of a region's fine end among all fronts
+    for k, part in enumerate(plan.region_plans):
+        if part.chosen is not None:
+            profile, n_fronts = part.region.profile, part.chosen.pattern.n_fronts
+            first[k] = n_before
+            levels[k] = front_levels(profile, n_fronts)
+            depths.append(np.linspace(0.0, profile.layers, n_fronts))
+            n_before += n_fronts
+    segments, region, level = front_lines(plan.regions, levels)
+    front = first[region] + level
+    log_h, depth = (np.concatenate([np.empty(0), *of])[front] for of in (levels.values(), depths))
+    return FrontLines(segments, region, level, log_h, depth / float(np.sqrt(plan.tris_per_block)))

@@ -20,7 +20,7 @@ from ..patterns import (
 from ..patterns import vertex_irregularity_of_fronts as of_fronts
 from .item import Number, Section, items_of
 from .printed import printed
-from .sketch import drawing, sheet
+from .sketch import pattern_sheet
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -118,8 +118,11 @@ def _moved(pattern: Pattern, length: float) -> float:
 
 def _draw() -> Figure:
     shape = Shape.rectangle(LENGTH)
-    drawings = [
-        drawing(f"{p} ({p.n_blocks} blocks)", p, best_spacing(p, shape).positions, title_has_quality=True)
-        for p in map(Pattern.parse, PATTERNS)
-    ]
-    return sheet(drawings, columns=3, height=2.8)
+    return pattern_sheet(
+        PATTERNS,
+        lambda p: best_spacing(p, shape).positions,
+        title=lambda p: f"{p} ({p.n_blocks} blocks)",
+        columns=3,
+        height=2.8,
+        has_quality=True,
+    )

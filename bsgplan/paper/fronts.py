@@ -9,10 +9,10 @@ import numpy as np
 from ..patterns import Pattern, Shape, best_length, best_spacing, paper_spacing, realise
 from ..patterns import vertex_irregularity_of_fronts as of_fronts
 from ..patterns.frustum import pattern_qualities
+from .curves import Curve, curve_sheet
 from .item import Number, Section, items_of
 from .printed import printed
-from .sketch import drawing, sheet
-from .strips import COLOURS
+from .sketch import pattern_sheet
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -37,13 +37,13 @@ def figure_4() -> Section:
         ours[text, "iota-"] = sum(i for i in sums if i < 0)
 
     def draw() -> Figure:
-        patterns = [Pattern.parse(text) for text in PATTERNS]
-        spaced = [paper_spacing(p, Shape.rectangle(1.0)).positions for p in patterns]
-        drawings = [
-            drawing(f"({c}) {p}", p, x, title_has_quality=True)
-            for c, p, x in zip("abc", patterns, spaced, strict=True)
-        ]
-        return sheet(drawings, columns=3, height=2.2)
+        return pattern_sheet(
+            PATTERNS,
+            lambda p: paper_spacing(p, Shape.rectangle(1.0)).positions,
+            columns=3,
+            height=2.2,
+            has_quality=True,
+        )
 
     text = (
         "Layers as wide as the edges of their coarser front, length 1. Irregularity is relative to the unit "
@@ -70,19 +70,13 @@ def figure_5() -> Section:
 
 
 def _curves() -> Figure:
-    from matplotlib.figure import Figure
-
     lengths = np.linspace(0.02, LONGEST, 150)
-    figure = Figure(figsize=(6.0, 3.8), dpi=150, layout="constrained")
-    axes = figure.add_subplot()
-    for text, colour in zip(("4:1", *PATTERNS), COLOURS, strict=False):
+    curves = []
+    for text in ("4:1", *PATTERNS):
         pattern = Pattern.parse(text)
         unit = paper_spacing(pattern, Shape.rectangle(1.0)).positions
-        best = [best_spacing(pattern, Shape.rectangle(float(x))).q_min for x in lengths]
-        stretched = [pattern_qualities(pattern, Shape.rectangle(float(x)), unit * x).min() for x in lengths]
-        axes.plot(lengths, best, color=colour, label=text, linewidth=1.4)
-        axes.plot(lengths, stretched, color=colour, linewidth=0.9, linestyle=(0, (4, 2)))
-    axes.set(xlabel="length [heights]", ylabel="q_min", xlim=(0, LONGEST), ylim=(0, 1))
-    axes.grid(alpha=0.3)
-    axes.legend(ncols=2, fontsize=8)
-    return figure
+        shapes = [Shape.rectangle(float(x)) for x in lengths]
+        best = [best_spacing(pattern, shape).q_min for shape in shapes]
+        stretched = [pattern_qualities(pattern, shape, unit * shape.length).min() for shape in shapes]
+        curves.append(Curve(text, np.array(best), np.array(stretched)))
+    return curve_sheet(lengths, curves, longest=LONGEST, height=3.8)

@@ -5,8 +5,9 @@ Produces matplotlib Figures without a window (no pyplot).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from string import ascii_lowercase
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -59,6 +60,27 @@ def drawing(title: str, pattern: Pattern, positions: Floats, *, title_has_qualit
 def drawing_of(title: str, realised: Realised) -> Drawing:
     """Return the drawing of realised blocks, irregularity relative to the unit square."""
     return Drawing(title, realised.points, realised.triangles, relative_irregularity(realised))
+
+
+def pattern_sheet(
+    patterns: Sequence[str],
+    positions: Callable[[Pattern], Floats],
+    *,
+    columns: int,
+    height: float,
+    title: Callable[[Pattern], str] | None = None,
+    has_quality: bool = False,
+) -> Figure:
+    """Return a figure of straight patterns with their fronts where positions puts them.
+
+    Titles are (a) 4:3:2:1, (b) .. where none is given, with the quality below if asked.
+    """
+    drawings = []
+    for letter, text in zip(ascii_lowercase, patterns, strict=False):
+        pattern = Pattern.parse(text)
+        heading = f"({letter}) {pattern}" if title is None else title(pattern)
+        drawings.append(drawing(heading, pattern, positions(pattern), title_has_quality=has_quality))
+    return sheet(drawings, columns=columns, height=height)
 
 
 def sheet(drawings: Sequence[Drawing], *, columns: int, height: float) -> Figure:

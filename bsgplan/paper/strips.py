@@ -15,9 +15,10 @@ from ..patterns import (
     strip_quality,
     vertex_irregularity_of_fronts,
 )
+from .curves import Curve, curve_sheet
 from .item import Number, Section, items_of
 from .printed import printed
-from .sketch import drawing, sheet
+from .sketch import pattern_sheet
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -28,8 +29,6 @@ CURVES = ("1:1", "2:1", "3:1", "4:1", "3:2", "4:3")
 """The strips of Figure 3."""
 LONGEST = 2.0
 """Length to which the curves of Figure 3 run, in heights."""
-COLOURS = ("#1b1b1b", "#1f4fbf", "#e07b39", "#c8102e", "#2e8b57", "#8a4fbf")
-"""Of curves, in order."""
 
 
 def figure_2() -> Section:
@@ -48,10 +47,7 @@ def figure_2() -> Section:
             ours[text, "top right"] = int(values[-1])
 
     def draw() -> Figure:
-        drawings = [
-            drawing(f"({c}) {p}", Pattern.parse(p), _UNIT) for c, p in zip("abcdef", PATTERNS, strict=True)
-        ]
-        return sheet(drawings, columns=6, height=1.7)
+        return pattern_sheet(PATTERNS, lambda _: _UNIT, columns=6, height=1.7)
 
     text = (
         "Eq. 10 and 11, f1 + f2 triangles and irregularity +-(f1 - f2), relative to the unit square; ours is "
@@ -74,19 +70,12 @@ def figure_3() -> Section:
 
 
 def _curves() -> Figure:
-    from matplotlib.figure import Figure
-
     lengths = np.linspace(0.01, LONGEST, 400)
-    figure = Figure(figsize=(6.0, 3.6), dpi=150, layout="constrained")
-    axes = figure.add_subplot()
-    for text, colour in zip(CURVES, COLOURS, strict=True):
+    curves = []
+    for text in CURVES:
         first, second = Pattern.parse(text).counts
-        q = [strip_quality(first, second, float(w)) for w in lengths]
-        axes.plot(lengths, q, color=colour, label=text, linewidth=1.4)
-    axes.set(xlabel="length [heights]", ylabel="q_min", xlim=(0, LONGEST), ylim=(0, 1))
-    axes.grid(alpha=0.3)
-    axes.legend(ncols=2, fontsize=8)
-    return figure
+        curves.append(Curve(text, np.array([strip_quality(first, second, float(w)) for w in lengths])))
+    return curve_sheet(lengths, curves, longest=LONGEST, height=3.6)
 
 
 _UNIT = np.array([0.0, 1.0])

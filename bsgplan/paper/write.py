@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from ..errors import OutputError
-from ..report import Table
+from ..report.table import markdown
 from .report import Report, section_table, slips_table, summary_table
 
 DOTS = 110
@@ -45,33 +45,24 @@ def write_report(
                 progress(f"drawing {section.key}")
                 drawn = section.figure()
                 drawn.savefig(stage / f"{section.key}.png", dpi=DOTS, bbox_inches="tight", pad_inches=0.08)
-        (stage / "report.md").write_text(markdown(report), encoding="utf-8")
+        (stage / "report.md").write_text(page(report), encoding="utf-8")
         text = json.dumps(report.document(), indent=2, allow_nan=False) + "\n"
         (stage / "report.json").write_text(text, encoding="utf-8")
         return sorted(path.name for path in stage.iterdir())
 
 
-def markdown(report: Report) -> str:
+def page(report: Report) -> str:
     """Return the report as a Markdown page, its pictures beside it."""
-    parts = [HEAD.strip(), markdown_table(summary_table(report)), "## Where the paper slips"]
-    parts.append(markdown_table(slips_table(report)))
+    parts = [HEAD.strip(), markdown(summary_table(report)), "## Where the paper slips"]
+    parts.append(markdown(slips_table(report)))
     for section in report.sections:
         parts += [f"## {section.title}", section.text]
         if section.figure is not None:
             parts.append(f"![{section.title}]({section.key}.png)")
-        parts.append(markdown_table(section_table(section)))
+        parts.append(markdown(section_table(section)))
         if section.skipped:
             parts.append(f"Skipped: {section.skipped}")
     return "\n\n".join(parts) + "\n"
-
-
-def markdown_table(table: Table) -> str:
-    """Return a table as Markdown, numbers to the right; the title is left to the heading above."""
-    words = [all(isinstance(row[i], str | None) for row in table.rows) for i in range(len(table.columns))]
-    rules = [":--" if i == 0 or is_words else "--:" for i, is_words in enumerate(words)]
-    lines = [[c.heading for c in table.columns], rules, *table.cells()]
-    body = "\n".join("| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines)
-    return "\n\n".join([body, *table.notes])
 
 
 def check_folder(folder: str | os.PathLike[str]) -> None:

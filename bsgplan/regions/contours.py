@@ -6,6 +6,8 @@ triangles; vertex charges add up to the charge of the regions.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from ..arrays import Floats, Ints, frozen_ints, sums_by
@@ -18,15 +20,28 @@ def front_levels(profile: Profile, n_fronts: int) -> Floats:
     return profile.levels_at(np.linspace(0.0, profile.layers, n_fronts))
 
 
-def front_lines(regions: Regions, region_id: int, levels: Floats) -> tuple[Floats, Ints]:
-    """Return the contours of the log size inside a region: segments (n, 2, 2 or 3), length, and levels (n,).
+def front_lines(
+    regions: Regions, levels: Mapping[int, Floats], triangles: Ints | None = None
+) -> tuple[Floats, Ints, Ints]:
+    """Return the contours of log size in regions: segments (n, 2, 2 or 3), length, region and level (n,).
 
-    levels are log sizes, (n_levels,), in any order; each segment lies in one triangle and is told by the
-    index of its level. A vertex exactly on a level counts as above it, so no segment is drawn twice.
+    levels are log sizes by the id of a region, (n_levels,), in any order; each segment lies in one triangle
+    and is told by the index of its level. A vertex exactly on a level counts as above it, so no segment
+    is drawn twice. triangles are the ones to walk, (n,), None for all.
     """
-    mesh = regions.size.mesh
-    triangles = mesh.triangles[regions[region_id].triangles]
-    return contour_segments(mesh.points[triangles], regions.size.log_h[triangles], np.asarray(levels))
+    mesh, log_h = regions.size.mesh, regions.size.log_h
+    label = regions.label if triangles is None else regions.label[triangles]
+    order = np.argsort(label, kind="stable")
+    ladder = label[order]
+    segments, ids, ranks = [np.empty((0, 2, mesh.points.shape[1]))], [np.empty(0, int)], [np.empty(0, int)]
+    for k, wanted in levels.items():
+        own = order[slice(*np.searchsorted(ladder, [k, k + 1]))]
+        corners = mesh.triangles[own if triangles is None else triangles[own]]
+        found, rank = contour_segments(mesh.points[corners], log_h[corners], np.asarray(wanted))
+        segments.append(found)
+        ids.append(np.full(len(rank), k))
+        ranks.append(rank)
+    return np.concatenate(segments), np.concatenate(ids), np.concatenate(ranks)
 
 
 def contour_segments(corners: Floats, values: Floats, levels: Floats) -> tuple[Floats, Ints]:

@@ -11,7 +11,7 @@ from scipy.sparse.linalg import LinearOperator, cg
 from ..arrays import Floats, Ints
 from ..mesh.operators import stiffness, vertex_areas
 from ..planning import Plan
-from ..regions.contours import contour_segments, front_levels, vertex_charges
+from ..regions.contours import front_levels, front_lines, vertex_charges
 from ..regions.region import UNIFORM
 from ..sizing.charge import NOISE
 from ..sizing.diffusion import SLIVER
@@ -111,14 +111,9 @@ def _colours(plan: Plan) -> Ints:
 
 
 def _fronts(plan: Plan, shown: Ints) -> Floats:
-    size, mesh = plan.regions.size, plan.regions.size.mesh
-    label, corners = plan.regions.label[shown], mesh.triangles[shown]
-    order = np.argsort(label, kind="stable")
-    start = np.searchsorted(label[order], np.arange(len(plan.region_plans) + 1))
-    found = [np.empty((0, 2, mesh.points.shape[1]))]
-    for k, region_plan in enumerate(plan.region_plans):
-        own = corners[order[start[k] : start[k + 1]]]
-        if region_plan.chosen is not None and len(own):
-            levels = front_levels(region_plan.region.profile, region_plan.chosen.pattern.n_fronts)[1:-1]
-            found.append(contour_segments(mesh.points[own], size.log_h[own], levels)[0])
-    return np.concatenate(found)
+    levels = {
+        k: front_levels(part.region.profile, part.chosen.pattern.n_fronts)[1:-1]
+        for k, part in enumerate(plan.region_plans)
+        if part.chosen is not None
+    }
+    return front_lines(plan.regions, levels, shown)[0]

@@ -1,11 +1,11 @@
 """What is in a mesh: its counts, shapes, lengths and irregularity as plain data, and as rows for a table.
 
-`measures` is the data; `rows` turns a document of data into (name, value, unit); `text` aligns rows.
+`measures` is the data; `rows` turns a document of data into (name, value, unit), `mesh_table` into a table.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -18,6 +18,7 @@ from ..mesh.irregularity import fitted_boundary_irregularity, genus
 from ..mesh.topology import Topology
 from .quad_report import quad_rows
 from .rows import Row, plain_irregularity, shown_irregularity, shown_share
+from .table import Column, Table
 
 
 def measures(mesh: Mesh, *, scale: Floats | None = None) -> dict[str, Any]:
@@ -135,15 +136,10 @@ def _triangle_rows(mesh: Mapping[str, Any], unit: str) -> list[Row]:
     ]
 
 
-def text(table: Iterable[Row]) -> str:
-    r"""Return rows as aligned plain text.
-
-    >>> text([("points", "4", ""), ("area", "1", "m^2")])
-    'points  4\narea    1 m^2'
-    """
-    table = list(table)
-    width = max(len(name) for name, _, _ in table)
-    return "\n".join(f"{name:<{width}}  {value} {unit}".rstrip() for name, value, unit in table)
+def mesh_table(mesh: Mapping[str, Any]) -> Table:
+    """Return the table of one mesh's document, each unit behind its value."""
+    lines = tuple((name, f"{value} {unit}".rstrip()) for name, value, unit in rows(mesh))
+    return Table("", (Column(""), Column("")), lines)
 
 
 def _edges(values: Mapping[str, float], *names: str) -> str:

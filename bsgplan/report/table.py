@@ -1,4 +1,4 @@
-"""The noun Table: rows of plain values under columns with units, and four small renderers of it."""
+"""The noun Table: rows of plain values under columns with units, and five small renderers of it."""
 
 from __future__ import annotations
 
@@ -51,6 +51,8 @@ class Table:
 def text(table: Table) -> str:
     """Return a table as aligned plain text; numbers to the right, words to the left.
 
+    Columns without any name have no line of names.
+
     >>> print(text(Table("", (Column("pattern"), Column("blocks")), (("7:4:1", 16), ("4:1", 5)))))
     pattern  blocks
     7:4:1        16
@@ -62,7 +64,8 @@ def text(table: Table) -> str:
         for i, c in enumerate(table.columns)
     ]
     to_left = [_is_words(table, i) for i in range(len(widths))]
-    lines = [[c.heading for c in table.columns], *cells]
+    headings = [c.heading for c in table.columns]
+    lines = [headings, *cells] if any(headings) else cells
     body = [
         "  ".join(
             v.ljust(w) if left else v.rjust(w) for v, w, left in zip(line, widths, to_left, strict=True)
@@ -82,13 +85,29 @@ def html(table: Table) -> str:
     return f"<table>{title}<thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>{notes}"
 
 
+def markdown(table: Table) -> str:
+    """Return a table as Markdown, numbers to the right; the title is left to the heading above.
+
+    >>> print(markdown(Table("", (Column("pattern"), Column("blocks")), (("7:4:1", 16),))))
+    | pattern | blocks |
+    | :-- | --: |
+    | 7:4:1 | 16 |
+    """
+    rules = [":--" if i == 0 or _is_words(table, i) else "--:" for i in range(len(table.columns))]
+    lines = [[c.heading for c in table.columns], rules, *table.cells()]
+    body = "\n".join("| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines)
+    return "\n\n".join([body, *table.notes])
+
+
 def rich_table(table: Table) -> Any:
     """Return a table as a rich renderable, its notes below."""
     from rich.console import Group
     from rich.markup import escape as plain
     from rich.table import Table as RichTable
 
-    result = RichTable(title=plain(table.title), title_justify="left", header_style="bold")
+    has_head = any(column.heading for column in table.columns)
+    title = plain(table.title) or None
+    result = RichTable(title=title, title_justify="left", header_style="bold", show_header=has_head)
     for i, column in enumerate(table.columns):
         result.add_column(plain(column.heading), justify="left" if _is_words(table, i) else "right")
     for row in table.cells():

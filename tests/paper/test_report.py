@@ -15,7 +15,7 @@ from bsgplan.cli import main
 from bsgplan.paper import Report, Section, region, remesher, report, reproduce, strips
 from bsgplan.paper.item import items_of
 from bsgplan.paper.printed import TABLES, printed
-from bsgplan.paper.write import markdown, write_report
+from bsgplan.paper.write import page, write_report
 from bsgplan.patterns import Pattern, Shape, best_spacing, realise, vertex_irregularity_of_fronts
 
 PAGE = Path(__file__).parents[2] / "docs" / "paper.md"
@@ -82,8 +82,8 @@ def test_the_package_loads_no_pictures_and_no_remesher() -> None:
 def test_all_slips_are_told_with_their_reason(made: Report) -> None:
     assert len(made.slips) == 10
     assert all(item.reason and item.agrees is not False for item in made.slips)
-    page = markdown(made)
-    assert all(item.reason in page for item in made.slips)
+    text = page(made)
+    assert all(item.reason in text for item in made.slips)
 
 
 def test_the_command_writes_report_document_and_pictures(
@@ -150,7 +150,7 @@ def test_without_the_case_figure_9_is_skipped_and_says_so(tmp_path: Path) -> Non
     section = region.figure_9(tmp_path)
     assert "cases/rectangle is not there" in section.skipped
     assert all(item.ours is None and item.agrees is None for item in section.items)
-    assert "Skipped: not measured" in markdown(Report((section,)))
+    assert "Skipped: not measured" in page(Report((section,)))
 
 
 def test_without_mmg_the_remeshed_figures_say_so(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -170,6 +170,6 @@ def test_with_mmg_a_rectangle_is_remeshed_to_its_size() -> None:
 def test_the_page_of_the_docs_is_what_the_command_makes(made: Report) -> None:
     stored, now = (
         [line for line in text.splitlines() if not REMESHER.match(line)]
-        for text in (PAGE.read_text().replace("](pictures/paper_", "]("), markdown(made))
+        for text in (PAGE.read_text().replace("](pictures/paper_", "]("), page(made))
     )
     assert [line for line in stored if line] == [line for line in now if line], "run scripts/make_docs.py"

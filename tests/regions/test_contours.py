@@ -71,7 +71,7 @@ def test_one_triangle_is_cut_twice_and_told_by_the_level_it_was_given():
 
 def test_a_contour_through_vertices_is_drawn_once():
     size = SizeField(grid(6, 4), np.exp(grid(6, 4).points[:, 0]))
-    segments, level = front_lines(whole(size), 0, np.array([3.0]))
+    segments, _, level = front_lines(whole(size), {0: np.array([3.0])})
     assert len(segments) == 4
     assert lengths_by_level(segments, level, 1) == pytest.approx([4.0])
 
@@ -79,7 +79,7 @@ def test_a_contour_through_vertices_is_drawn_once():
 def test_contours_of_a_rectangle_are_as_long_as_it_is_high():
     mesh = grid(12, 5)
     levels = np.array([0.3, 1.7, 2.2, 3.9])
-    segments, level = front_lines(whole(SizeField(mesh, np.exp(mesh.points[:, 0] / 3))), 0, levels)
+    segments, _, level = front_lines(whole(SizeField(mesh, np.exp(mesh.points[:, 0] / 3))), {0: levels})
     assert lengths_by_level(segments, level, 4) == pytest.approx([5.0] * 4)
     assert segments[..., 0] == pytest.approx(np.repeat(3 * levels[level], 2).reshape(-1, 2))
 
@@ -88,7 +88,7 @@ def test_contours_of_an_annulus_are_circles():
     mesh = ring(60, np.geomspace(1.0, 5.0, 30))
     radius = np.linalg.norm(mesh.points, axis=1)
     levels = np.log([1.5, 2.0, 4.5])
-    segments, level = front_lines(whole(SizeField(mesh, radius)), 0, levels)
+    segments, _, level = front_lines(whole(SizeField(mesh, radius)), {0: levels})
     assert lengths_by_level(segments, level, 3) == pytest.approx(2 * np.pi * np.exp(levels), rel=0.01)
 
 
@@ -100,7 +100,7 @@ def test_front_lines_lie_on_their_level_and_in_their_region(rectangle: Regions):
     with_value = np.concatenate([mesh.points[own], log_h[own][..., None]], axis=2)
     lifted, told = contour_segments(with_value, log_h[own], levels)
     assert lifted[..., 2] == pytest.approx(np.repeat(levels[told], 2).reshape(-1, 2))
-    flat, level = front_lines(rectangle, region.id, levels)
+    flat, _, level = front_lines(rectangle, {region.id: levels})
     assert np.array_equal(flat, lifted[..., :2])
     assert np.array_equal(level, told)
     assert len(set(level.tolist())) >= 3
@@ -112,7 +112,7 @@ def test_contours_of_the_annulus_have_the_elements_of_its_profile():
     profile = regions[0].profile
     depths = np.linspace(0.1, 0.9, 5) * profile.layers
     levels = profile.levels_at(depths)
-    elements = lengths_by_level(*front_lines(regions, 0, levels), 5) / np.exp(levels)
+    elements = lengths_by_level(*front_lines(regions, {0: levels})[::2], 5) / np.exp(levels)
     assert elements == pytest.approx(profile.counts_at(depths), rel=0.15)
     assert elements.mean() == pytest.approx(profile.counts_at(depths).mean(), rel=0.1)
 
