@@ -52,5 +52,11 @@ def hexagon(h: float, side: int, *, snap: bool) -> BlockGrid:
         blocks={"resolution": 6.0},
         **({"raggedness": 0.0} if "raggedness" in Target.__dataclass_fields__ else {}),
     )
-    cut = subdivide(domain, placed, side, np.full(n, np.log(side * h / domain.scale)), snap=snap)
+    cut = subdivide(
+        domain,
+        placed,
+        side,
+        np.full(n, np.log(side * h / domain.scale)),
+        bend=np.full(len(placed.topology.edges), float(snap)),
+    )
     return BlockGrid(BlockLayout(size, domain, target, placed), cut.mesh, cut.block, cut.i, cut.j, not snap)

@@ -23,6 +23,10 @@ REGIONS = (*REGION_ARRAYS, "region", "netgen:index")
 """Cell arrays of whole numbers that tell materials apart; the first one that does counts."""
 
 
+SMALLEST_REGION = 4
+"""Interfaces are followed where half of the regions, or more, have room for this many blocks."""
+
+
 @dataclass(frozen=True, eq=False)
 class Features:
     """Interfaces and points that stay, for `lay_out(..., interfaces=, kept=)`."""
@@ -52,7 +56,16 @@ def find_features(
     if array is not None:
         region = mesh_file.cell_data[array]
         pair = topology.edge_cells
-        interfaces = ~topology.is_boundary_edge & (region[pair[:, 0]] != region[pair[:, 1]])
+        number = np.unique(region, return_inverse=True)[1]
+        blocks = np.bincount(number, size.triangle_weights) / side**2
+        if np.median(blocks) >= SMALLEST_REGION:
+            interfaces = ~topology.is_boundary_edge & (region[pair[:, 0]] != region[pair[:, 1]])
+        else:
+            log.warning(
+                "%s: half of the %d regions of %s would get fewer than %d blocks, blocks do not follow their "
+                "interfaces; give fewer triangles a block",
+                mesh_file.path, len(blocks), array, SMALLEST_REGION,
+            )  # fmt: skip
     tracks = find_tracks(mesh, mesh_file.boundaries)
     lines, points = _named(mesh_file, keep)
     held = np.array([track.boundary in lines for track in tracks.tracks], dtype=bool)
