@@ -49,8 +49,8 @@ def hexagon(h: float, side: int, *, snap: bool) -> BlockGrid:
         is_corner=np.zeros(n, dtype=bool),
         turning=np.zeros(n),
         gradient_limit=1.0,
-        blocks={"resolution": 6.0},
-        **({"raggedness": 0.0} if "raggedness" in Target.__dataclass_fields__ else {}),
+        raggedness=0.0,
+        blocks={"resolution": 6.0, "gradient": 6.0, "boundary": 6.0},
     )
     cut = subdivide(
         domain,
