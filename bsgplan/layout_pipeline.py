@@ -15,6 +15,7 @@ from .blocks.domain import domain_of
 from .blocks.lay_out import EFFORT, SIZE_TOLERANCE, lay_out
 from .io import MeshFile
 from .laid_out import Features, find_features, lay_out_file
+from .laid_out.specks import without_specks
 from .layout_result import LayoutResult
 from .mesh import Mesh
 from .pipeline import check_triangles_only, plan_blocks, size_of
@@ -47,8 +48,8 @@ def lay_out_mesh(
     check_block_size(tris_per_block)
     check_triangles_only(mesh_file)
     progress("measuring sizes", 0.0)
-    field = size_of(mesh_file, size, size_file)
-    side = isqrt(tris_per_block)
+    whole, side = mesh_file, isqrt(tris_per_block)
+    mesh_file, field = without_specks(whole, size_of(whole, size, size_file), side=side)
     warn_if_pointless(
         field, find_features(mesh_file, field, side=side, keep=keep), side, gradient_limit=gradient_limit
     )
@@ -69,7 +70,7 @@ def lay_out_mesh(
     )
     seconds = time.process_time() - begin
     progress("estimating", 1.0)
-    planned = plan_blocks(mesh_file, tris_per_block=tris_per_block, size=size, size_file=size_file)
+    planned = plan_blocks(whole, tris_per_block=tris_per_block, size=size, size_file=size_file)
     return LayoutResult(laid_out, planned.plan, n_ranks, seconds, is_stopped())
 
 

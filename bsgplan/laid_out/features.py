@@ -108,10 +108,13 @@ def _named(mesh_file: MeshFile, keep: Iterable[str | int]) -> tuple[set[int], li
         if found:
             lines |= found
         elif str(word).isdecimal():
-            if int(word) >= mesh_file.mesh.n_points:
-                last = mesh_file.mesh.n_points - 1
-                raise InvalidOption(f"--keep {word}: the points of {mesh_file.path} count from 0 to {last}")
-            points.append(int(word))
+            own = np.flatnonzero(mesh_file.kept_points == int(word))
+            if not len(own):
+                raise InvalidOption(
+                    f"--keep {word}: no point in use of {mesh_file.path} has this number; "
+                    f"they count from 0 to {mesh_file.kept_points[-1]}"
+                )
+            points.append(int(own[0]))
         else:
             there = ", ".join(name for name, _ in names) or "none"
             raise InvalidOption(
