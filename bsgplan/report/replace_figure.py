@@ -63,7 +63,9 @@ def replace_figure(replacement: Replacement, *, projection: GlobeMap | None = No
                 axes.set_yticklabels([])
             if row == 0 and len(boxes) == 2:
                 axes.add_patch(_frame(boxes[1]))
-            axes.set_title(_heading(mesh, label >= 0, view.placed, box, ("before", "after")[column]), fontsize=8)
+            axes.set_title(
+                _heading(mesh, label >= 0, view.placed, box, ("before", "after")[column]), fontsize=8
+            )
         top += 0.75 + height
     return drawn
 
