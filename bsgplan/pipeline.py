@@ -18,7 +18,7 @@ import numpy as np
 import shapely
 from shapely.geometry.base import BaseGeometry
 
-from .arrays import sums_by
+from .arrays import Bools, sums_by
 from .blocks.domain import domain_of
 from .blocks.target import target_of
 from .errors import InvalidMesh, MeshReadError
@@ -138,11 +138,7 @@ def cut_out(mesh_file: MeshFile, region: BaseGeometry) -> MeshFile:
 
     The polygon is in the coordinates of the file, degrees where the mesh was projected from degrees.
     """
-    if mesh_file.projection is not None:
-        x0, y0, x1, y1 = region.bounds
-        fine = shapely.segmentize(region, max(x1 - x0, y1 - y0) / 50)  # straight in degrees, not in the plane
-        region = shapely.transform(fine, mesh_file.projection.to_plane)
-    inside = triangles_inside(mesh_file.mesh, region)
+    inside = triangles_in(mesh_file, region)
     cleaned = clean(mesh_file.mesh.points, mesh_file.mesh.triangles[inside])
     kept = cleaned.kept_points
     return replace(
@@ -154,4 +150,17 @@ def cut_out(mesh_file: MeshFile, region: BaseGeometry) -> MeshFile:
         cell_data={name: values[inside] for name, values in mesh_file.cell_data.items()},
         boundaries=(),
         kept_points=mesh_file.kept_points[kept],
+        degrees=mesh_file.degrees[kept] if len(mesh_file.degrees) else mesh_file.degrees,
     )
+
+
+def triangles_in(mesh_file: MeshFile, region: BaseGeometry) -> Bools:
+    """Return the triangles of a mesh file whose centroid lies in a polygon, (n_triangles,).
+
+    The polygon is in the coordinates of the file, degrees where the mesh was projected from degrees.
+    """
+    if mesh_file.projection is not None:
+        x0, y0, x1, y1 = region.bounds
+        fine = shapely.segmentize(region, max(x1 - x0, y1 - y0) / 50)  # straight in degrees, not in the plane
+        region = shapely.transform(fine, mesh_file.projection.to_plane)
+    return triangles_inside(mesh_file.mesh, region)

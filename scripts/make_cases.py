@@ -45,6 +45,13 @@ ALL = (
         region="POLYGON ((0.3 0, 0.96 0, 0.96 1, 0.3 1, 0.3 0))",
     ),
     Case(
+        "transition",
+        "The same transition, meshed by Delaunay refinement",
+        "What the paper's Figure 8 begins with: twice the irregular vertices of the case rectangle.",
+        "gmsh Delaunay (algorithm 5); sizes as in the case rectangle.",
+        region="POLYGON ((0.3 0, 0.96 0, 0.96 1, 0.3 1, 0.3 0))",
+    ),
+    Case(
         "islands",
         "A sea of 60 x 40 with five invented islands",
         "Closed rings of transition around islands of several sizes, meeting along ridges of the size field.",

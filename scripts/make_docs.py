@@ -65,6 +65,7 @@ TEXTS: dict[str, tuple[str, ...]] = {
     "no-square.txt": ("estimate", case("square"), "--tris-per-block", "20"),
     "no-array.txt": ("estimate", case("plate"), "--size", "depth"),
     "uncovered.txt": ("estimate", case("rectangle"), "--size-file", case("square")),
+    "replace.txt": ("replace", case("transition"), "--region", region_of("transition")),
     "size.txt": ("estimate", case("plate"), "--size", "size"),
 }
 """File in docs/examples/ and the command whose output it holds."""
@@ -84,7 +85,7 @@ LAYOUTS = DOCS / "layout"
 LAYOUT_DOCUMENT = ("layout", case("plate"), "--effort", "5", "--ranks", "8", "--json")
 """The command of docs/layout/plate.json: few sweeps, so that a test can run it again."""
 
-PAPER = tuple(f"figure_{n}" for n in (1, 2, 3, 4, 5, 6, 7, 9, 10))
+PAPER = tuple(f"figure_{n}" for n in (1, 2, 3, 4, 5, 6, 7, 8, 9, 10))
 """Pictures of `bsgplan paper` that docs/paper.md shows."""
 
 DRAWN = (*CASES, "layout_shoreline", *(f"paper_{name}" for name in PAPER))

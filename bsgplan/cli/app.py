@@ -29,6 +29,7 @@ COMMANDS = {
     "estimate": ("bsgplan.cli.estimate:estimate", "Plan the blocks of a mesh."),
     "layout": ("bsgplan.cli.layout:layout", "Lay the whole mesh out in blocks and cut them into a grid."),
     "sweep": ("bsgplan.cli.sweep:sweep", "Plan many meshes at many block sizes into a CSV file."),
+    "replace": ("bsgplan.cli.replace:replace", "Replace parts of a mesh, far fewer irregular vertices left."),
     "pattern": ("bsgplan.cli.pattern:pattern", "Show what a pattern is worth."),
     "patterns": ("bsgplan.cli.patterns:patterns", "Find the best patterns of a transition."),
     "paper": ("bsgplan.cli.paper:paper", "Reproduce every table and figure of the paper."),

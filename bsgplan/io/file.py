@@ -89,6 +89,8 @@ class MeshFile:
     """Points in the file, used or not."""
     cell_names: dict[str, dict[int, str]] = field(default_factory=dict)
     """Names of the values of a cell array (physical groups, materials), by array and value."""
+    degrees: Floats = field(default_factory=lambda: np.empty((0, 2)))
+    """Longitude and latitude of the points as the file has them, (n_points, 2), where they were projected."""
     is_renumbered: bool = False
     """True where the points are not numbered as in the file: dropped ones, or numbers in another order."""
 
@@ -96,6 +98,13 @@ class MeshFile:
     def scale(self) -> Floats | None:
         """Plane metres per true metre at each point, (n_points,); None without a projection."""
         return None if self.projection is None else self.projection.scale(self.mesh.points)
+
+    @property
+    def file_points(self) -> Floats:
+        """The points in the file's own coordinates, (n_points, 2 or 3): degrees where they were projected."""
+        if self.projection is None:
+            return self.mesh.points
+        return self.degrees if len(self.degrees) else self.projection.to_degrees(self.mesh.points)
 
     def __repr__(self) -> str:
         return f"MeshFile({self.path!r}, {self.format}, {self.mesh!r})"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from pathlib import Path
 
 from ..errors import BsgplanError, InvalidMesh, MeshReadError
@@ -37,7 +38,7 @@ def assembled(
     split_quads: bool = False,
 ) -> MeshFile:
     """Return the MeshFile of what stands in a file, projected and with its quads split if asked."""
-    projection = None
+    projection, points = None, raw.points
     try:
         if is_lonlat and (len(raw.triangles) or len(raw.quads)):
             raw, projection = project_raw(raw)
@@ -45,7 +46,10 @@ def assembled(
             raw = split(raw)
     except InvalidMesh as error:
         raise InvalidMesh(f"{os.fspath(path)}: {error}") from None
-    return assemble(os.fspath(path), file_format, raw, projection)
+    mesh_file = assemble(os.fspath(path), file_format, raw, projection)
+    if projection is None:
+        return mesh_file
+    return replace(mesh_file, degrees=points[mesh_file.kept_points, :2])
 
 
 def read_raw(path: str | os.PathLike[str]) -> tuple[str, RawMesh]:

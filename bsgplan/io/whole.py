@@ -61,7 +61,8 @@ def whole_mesh(mesh_file: MeshFile) -> WholeMesh:
         points = np.concatenate([points, mesh_file.quad_points[is_own]])
         data = {n: np.concatenate([v, mesh_file.quad_point_data[n][is_own]]) for n, v in data.items()}
     if mesh_file.projection is not None:
-        points = mesh_file.projection.to_degrees(points)
+        own = mesh_file.projection.to_degrees(points[mesh.n_points :])
+        points = np.concatenate([mesh_file.file_points, own])
     boundaries = mesh_file.all_boundaries if len(quads) else mesh_file.boundaries
     return WholeMesh(points, mesh.triangles, quads, data, boundaries)
 

@@ -92,6 +92,11 @@ TABLES: dict[str, str] = {
         a, isotropic remeshing       313 []     0.33 []       0.75 []
         b, 128:64:..:1               381        0.87 [0.866]  0.87 [0.867]
     """,
+    "figure_8": """
+        region  triangles  irregular vertices  q_min
+        before  205 []     63 []               0.76 []
+        after   189 []     8 []                0.75 []
+    """,
     "figure_9": """
         region                paper
         fine end, elements    28 []

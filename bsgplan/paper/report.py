@@ -8,7 +8,7 @@ from typing import Any
 
 from ..report import Table
 from ..report.table import Column, Value
-from . import blocks, bounds, fronts, rectangles, region, squares, strips
+from . import blocks, bounds, fronts, rectangles, region, replaced, squares, strips
 from .item import Item, Section
 from .printed import row_heading
 
@@ -23,6 +23,7 @@ SECTIONS: tuple[Callable[[], Section], ...] = (
     fronts.figure_5,
     rectangles.figure_6,
     rectangles.figure_7,
+    replaced.figure_8,
     region.figure_9,
     blocks.table_2,
     blocks.figure_10,
@@ -30,7 +31,7 @@ SECTIONS: tuple[Callable[[], Section], ...] = (
     bounds.equation_24,
     bounds.words,
 )
-"""In the order of the paper; Figure 8, regions replaced in a mesh, is not among them."""
+"""In the order of the paper."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -27,18 +27,22 @@ class Terms:
     """The least mean ratio asked for, beside what the part had."""
 
 
+def gains(before: Measures, after: Measures) -> bool:
+    """Return True where enough irregular vertices go, some of them inside."""
+    gone = _irregular(before) - _irregular(after)
+    is_enough = gone >= max(1.0, LEAST_GAIN * _irregular(before))
+    return is_enough and after.irregular_interior < before.irregular_interior
+
+
 def refusal(before: Measures, after: Measures, wanted: float, terms: Terms) -> str:
     """Return why a part is left alone, "" where the replacement pays. wanted is the number of triangles.
 
     >>> refusal(a := Measures(9, 9, 8, 0, 0, None, .8, .8, .9, .1), a, 9.0, Terms())
     'no more than 0 of 8 irregular vertices would go'
     """
-    gone = _irregular(before) - _irregular(after)
-    if (
-        gone < max(1.0, LEAST_GAIN * _irregular(before))
-        or after.irregular_interior >= before.irregular_interior
-    ):
-        return f"no more than {max(gone, 0)} of {_irregular(before)} irregular vertices would go"
+    if not gains(before, after):
+        gone = max(_irregular(before) - _irregular(after), 0)
+        return f"no more than {gone} of {_irregular(before)} irregular vertices would go"
     if terms.min_quality is not None and after.q_min < terms.min_quality:
         return f"quality {after.q_min:.3f} would be under the {terms.min_quality:g} asked for"
     if after.q_min < before.q_min - QUALITY_LOSS:

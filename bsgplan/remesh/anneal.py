@@ -29,8 +29,11 @@ STAGES = 10
 STEERED = 9
 """Stages after which the count is no longer steered."""
 
-MOST_SHIFT = 0.2
-"""Largest shift of the log of the wanted edge."""
+SHIFT, MOST_SHIFT = -0.05, 0.2
+"""First and largest shift of the log of the wanted edge: a mesh of few defects has fewer triangles."""
+
+GAIN = 0.3
+"""Share of the log of triangles over wanted by which a stage shifts it; they follow slowly."""
 
 MOST_SIZE_WEIGHT = 2.0
 """The most that the weight of sizes is raised to."""
@@ -68,7 +71,7 @@ def remeshed(
     from ..blocks.kernel.state import TEMPERATURE
     from ..blocks.kernel.sweeps import relax_all
 
-    mesh, offset, weight = cut.start, 0.0, SIZE_WEIGHT
+    mesh, offset, weight = cut.start, SHIFT, SIZE_WEIGHT
     temperatures = HOT * (COLD / HOT) ** np.linspace(0.0, 1.0, n_sweeps(len(mesh.triangles), effort))
     n_stages = min(STAGES, len(temperatures))
     for stage, part in enumerate(np.array_split(temperatures, n_stages)):
@@ -81,7 +84,7 @@ def remeshed(
         relax_all(state, 2)
         mesh = unload(state)
         if stage < STEERED:
-            shift = offset + 0.25 * np.log(len(mesh.triangles) / wish.n_triangles)
+            shift = offset + GAIN * np.log(len(mesh.triangles) / wish.n_triangles)
             offset = float(np.clip(shift, -MOST_SHIFT, MOST_SHIFT))
             if stage > 1:
                 stray = size_rms(cut.domain, mesh, log_size) / max(wish.size_misfit, 1e-6)

@@ -13,8 +13,8 @@ from ..blocks.placed import PlacedMesh
 from ..mesh import Mesh
 from ..regions.labels import connected
 from ..sizing import SizeField
-from .accept import Terms, refusal
-from .anneal import Wish, remeshed
+from .accept import Terms, gains, refusal
+from .anneal import STAGES, Wish, remeshed
 from .cut import Cut, cut
 from .graft import Graft, graft
 from .measures import Measures, measured
@@ -24,6 +24,9 @@ EFFORT = 30
 
 SEED = 7
 """Default seed."""
+
+TURNS, SMALL = 4, 4000
+"""Parts of at most SMALL triangles get so many turns where chance left them worse than allowed."""
 
 
 @dataclass(frozen=True)
@@ -37,6 +40,8 @@ class Part:
     """As it is now: `before` where it was left alone."""
     reason: str
     """Why it was left alone; "" where it was replaced."""
+    could_gain: bool = False
+    """True where it was left alone for something else than its gain."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,7 +135,7 @@ def replace(
         name = name if len(pieces) == 1 else f"{name}, piece {number}"
         part = attempt(inside, name)
         labels = np.unique(label[inside])
-        if part.reason and not is_drawn and len(labels) > 1 and not part.reason.startswith("no more"):
+        if part.could_gain and not is_drawn and len(labels) > 1:
             for region in labels:
                 attempt(inside & (label == region), f"region {region}")
     return Replacement(size, graft(mesh, accepted), label, tuple(told))
@@ -152,16 +157,19 @@ def _attempt(
     is_own = size.source == "edges"
     wanted = float(before.n_triangles) if is_own else float(size.triangle_weights[inside].sum())
     misfit = size_rms(part.domain, part.start, log_size)
-    placed = remeshed(part, log_size, Wish(wanted, misfit), effort=effort, seed=seed, progress=progress)
-    tried = graft(mesh, [(part, placed)])
-    is_new = np.arange(tried.mesh.n_triangles) >= tried.n_outside
-    after = measured(tried.mesh, tried.at_points(size.log_h), is_new, _points_of(tried.mesh, is_new))
-    reason = refusal(before, after, wanted, terms)
-    return (
-        (Part(name, before, before, reason), None)
-        if reason
-        else (Part(name, before, after, ""), (part, placed))
-    )
+    for turn in range(TURNS if before.n_triangles <= SMALL else 1):
+        placed = remeshed(
+            part, log_size, Wish(wanted, misfit), effort=effort, seed=seed + STAGES * turn, progress=progress
+        )
+        tried = graft(mesh, [(part, placed)])
+        is_new = np.arange(tried.mesh.n_triangles) >= tried.n_outside
+        after = measured(tried.mesh, tried.at_points(size.log_h), is_new, _points_of(tried.mesh, is_new))
+        reason = refusal(before, after, wanted, terms)
+        if not reason:
+            return Part(name, before, after, ""), (part, placed)
+        if not gains(before, after):
+            break
+    return Part(name, before, before, reason, gains(before, after)), None
 
 
 def _points_of(mesh: Mesh, triangles: Bools) -> Bools:

@@ -15,7 +15,7 @@ Floats = NDArray[np.float64]
 Size = Callable[[float, float], float]
 """The target edge length at a point (x, y)."""
 
-FRONTAL_DELAUNAY = 6
+DELAUNAY, FRONTAL_DELAUNAY = 5, 6
 
 OPTIONS = {
     "General.Terminal": 0,

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import shapely
 
-from .drawing import circle, closed_spline, polyline, surface, write
+from .drawing import DELAUNAY, circle, closed_spline, polyline, surface, write
 
 PAPER_FINE, PAPER_COARSE = 28, 4
 """Elements on the fine and on the coarse front of the paper's region (Section 4)."""
@@ -44,6 +44,14 @@ def rectangle(path: Path) -> float:
         edges_per_curve=counts,
         along=lambda x, _y: x,
     )
+
+
+def transition(path: Path) -> float:
+    """Mesh the rectangle by Delaunay refinement."""
+    from gmsh import option
+
+    option.setNumber("Mesh.Algorithm", DELAUNAY)
+    return rectangle(path)
 
 
 def square(path: Path) -> float:

@@ -22,6 +22,7 @@ from bsgplan.cli.layout import layout
 from bsgplan.cli.paper import paper
 from bsgplan.cli.pattern import pattern
 from bsgplan.cli.patterns import patterns
+from bsgplan.cli.replace import replace
 from bsgplan.cli.sweep import sweep
 
 ROOT = Path(__file__).parents[2]
@@ -69,7 +70,7 @@ def test_constants_on_the_pages_are_those_of_the_code() -> None:
 
 
 def test_every_option_is_explained_and_none_is_made_up() -> None:
-    commands = (convert, estimate, export, info, layout, pattern, patterns, paper, sweep)
+    commands = (convert, estimate, export, info, layout, pattern, patterns, paper, replace, sweep)
     names = {name for command in commands for name in inspect.signature(command).parameters}
     names -= {"file", "files", "counts", "ends"}
     options = {f"--{name.replace('_', '-')}" for name in names} | {"--debug", "--help"}
