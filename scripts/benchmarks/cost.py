@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import subprocess
 import sys
 import time
@@ -11,6 +10,16 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 T = TypeVar("T")
+
+
+STARTER = """
+import os, subprocess, sys
+process = subprocess.Popen([sys.executable, *sys.argv[1:]], stdout=subprocess.DEVNULL)
+_, status, used = os.wait4(process.pid, 0)
+print(used.ru_utime + used.ru_stime, used.ru_maxrss)
+sys.exit(os.waitstatus_to_exitcode(status) and 1)
+"""
+"""Runs a Python process and prints its CPU seconds and the largest resident set, as the system says it."""
 
 
 @dataclass(frozen=True)
@@ -36,11 +45,12 @@ def cost_of(words: Sequence[str]) -> Cost:
 
 
 def cost_of_python(words: Sequence[str]) -> Cost:
-    """Return the cost of a Python process with these arguments, its output thrown away."""
-    process = subprocess.Popen([sys.executable, *words], stdout=subprocess.DEVNULL)
-    _, status, used = os.wait4(process.pid, 0)
-    process.returncode = os.waitstatus_to_exitcode(status)
-    if process.returncode:
-        raise SystemExit(f"{' '.join(words)}: exit code {process.returncode}")
-    unit = 1 if sys.platform == "darwin" else 1024
-    return Cost(used.ru_utime + used.ru_stime, used.ru_maxrss * unit)
+    """Return the cost of a Python process with these arguments, its output thrown away.
+
+    Started by a small process of its own: a child begins with the peak memory of its parent.
+    """
+    told = subprocess.run([sys.executable, "-c", STARTER, *words], stdout=subprocess.PIPE, check=False)
+    if told.returncode:
+        raise SystemExit(f"{' '.join(words)}: exit code {told.returncode}")
+    cpu, peak = told.stdout.split()
+    return Cost(float(cpu), float(peak) * (1 if sys.platform == "darwin" else 1024))
