@@ -9,11 +9,9 @@ from .layout import BlockGrid, BlockLayout
 from .smooth import qualities, smooth
 from .subdivide import subdivide
 
-SHARES = (0.7, 0.4, 0.0)
-"""Shares of the way to its curve that a side is bent where the whole way would invert triangles."""
-
-FLAT = 0.02
-"""Triangles under this mean ratio count as inverted then."""
+SHARES = ((0.7, 0.3), (0.4, 0.3), (0.0, 0.02))
+"""Shares of the way to its curve that a side is bent, and the mean ratio of triangles under which it is: where
+the whole way would make poor triangles, and no way at all where inverted ones were left."""
 
 
 def gridded(layout: BlockLayout, *, is_straight: bool = False) -> BlockGrid:
@@ -29,8 +27,8 @@ def unbent(grid: BlockGrid) -> BlockGrid:
     """
     edges = grid.layout.placed.topology
     bend = np.zeros(len(edges.edges)) if grid.is_straight else np.ones(len(edges.edges))
-    for share in SHARES:
-        is_flat = qualities(grid.placed) < FLAT
+    for share, poor in SHARES:
+        is_flat = qualities(grid.placed) < poor
         if grid.is_straight or not is_flat.any():
             break
         blocks = grid.layout.placed.triangles
