@@ -30,7 +30,7 @@ WINDING = 3.0
 
 
 def boundary_limit(domain: Domain, length: Floats, h: Floats, is_corner: Bools) -> Floats:
-    """Return the longest block edge that the boundary carries at each point, (n_points,); inf inside.
+    """Return the longest block edge that the curves carry at each point, (n_points,); inf inside.
 
     length is the wanted block edge, h the input's own size, both at the points in the domain's unit.
     """
@@ -43,7 +43,6 @@ def boundary_limit(domain: Domain, length: Floats, h: Floats, is_corner: Bools) 
         if is_closed and not is_inside:
             own = np.minimum(own, domain.curve_lengths[c] / LOOP_EDGES)
         np.minimum.at(limit, nodes, own)
-    np.minimum(limit, _channels(domain, length), out=limit)
     return limit
 
 
@@ -99,7 +98,7 @@ def _to_corners(arc: Floats, is_closed: bool, total: float, stop: Bools) -> tupl
     return np.where(np.isinf(behind), ahead, behind), np.where(np.isinf(ahead), behind, ahead)
 
 
-def _channels(domain: Domain, length: Floats) -> Floats:
+def channel_limit(domain: Domain, length: Floats) -> Floats:
     """Return CHANNEL times the width of the channel at each point of the boundary that faces another."""
     limit = np.full(domain.n_points, np.inf)
     shore = np.flatnonzero(domain.is_boundary)

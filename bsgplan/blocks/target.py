@@ -12,7 +12,7 @@ from ..sizing.field import EQUILATERAL
 from ..sizing.limits import limit_gradient
 from .corners import find_corners
 from .domain import Domain
-from .limits import boundary_limit
+from .limits import boundary_limit, channel_limit
 
 SLOPES = (0.6, 0.7, 0.8, 0.9, 1.0)
 """Bounds on the gradient of the block edge: the first on smooth domains, the last on ragged coasts."""
@@ -73,9 +73,13 @@ def target_of(domain: Domain, size: SizeField, side: int, *, gradient_limit: flo
     wanted = side * h
     length = wanted
     plain, is_small = n_blocks(domain, wanted), _is_small(domain, wanted)
+    smooth = gradient_limit or _slope(domain, wanted)
+    across = channel_limit(domain, wanted)
     for floor in FLOORS:
         least = np.where(is_small, SMALL_FLOOR, max(floor, 1 / side))  # no edge shorter than the input's
-        length, slope, rough = _limited(domain, wanted, h, least, gradient_limit)
+        length, slope, rough = _limited(
+            domain, wanted, h, least, across, smooth, gradient_limit or SLOPES[-1]
+        )
         if n_blocks(domain, length) <= BOUNDARY_COST * plain:
             break
     is_corner, turning = find_corners(domain, length)
@@ -88,15 +92,15 @@ def target_of(domain: Domain, size: SizeField, side: int, *, gradient_limit: flo
 
 
 def _limited(
-    domain: Domain, wanted: Floats, h: Floats, least: Floats, gradient_limit: float | None
+    domain: Domain, wanted: Floats, h: Floats, least: Floats, across: Floats, smooth: float, ragged: float
 ) -> tuple[Floats, float, float]:
-    """Return the limited block edge, the bound on its gradient, and the raggedness."""
+    """Return the limited block edge, the bound on its gradient (smooth or ragged), and the raggedness."""
     length = wanted
     for _ in range(PASSES):
         is_corner, _turning = find_corners(domain, length)
-        share = boundary_limit(domain, wanted, h, is_corner) / wanted
+        share = np.minimum(boundary_limit(domain, wanted, h, is_corner), across) / wanted
         rough = _raggedness(domain, np.maximum(share, least))
-        slope = gradient_limit or (SLOPES[-1] if rough > RAGGEDNESS else _slope(domain, wanted))
+        slope = ragged if rough > RAGGEDNESS else smooth
         length = limit_gradient(domain.mesh, wanted * np.clip(share, least, 1.0), slope)
     return length, slope, rough
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
@@ -54,6 +56,7 @@ def _count(size: SizeField, triangle_size: Floats, inside: Bools) -> float:
     return float((size.mesh.areas / (EQUILATERAL * triangle_size**2))[inside].sum())
 
 
+@lru_cache(maxsize=1)
 def _links(mesh: Mesh) -> tuple[Ints, Floats]:
     """Return edges and the diagonals of pairs of triangles, (n, 2), and their lengths."""
     topology = mesh.topology
