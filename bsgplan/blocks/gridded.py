@@ -10,8 +10,8 @@ from .smooth import qualities, smooth
 from .subdivide import subdivide
 
 SHARES = ((0.7, 0.3), (0.4, 0.3), (0.0, 0.02))
-"""Shares of the way to its curve that a side is bent, and the mean ratio of triangles under which it is: where
-the whole way would make poor triangles, and no way at all where inverted ones were left."""
+"""Shares of the way to its curve that a side is bent, and the mean ratio of triangles under which it is:
+part of the way where all of it would make poor triangles, no way where inverted ones were left."""
 
 
 def gridded(layout: BlockLayout, *, is_straight: bool = False) -> BlockGrid:
