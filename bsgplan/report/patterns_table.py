@@ -89,12 +89,15 @@ def patterns_table(document: dict[str, Any], *, most: int) -> Table:
 
 
 def _spread(patterns: list[dict[str, Any]], most: int) -> list[dict[str, Any]]:
-    """Return at most so many: one goes where another is about as good in all three, ever more loosely."""
-    share, kept = 0.0, patterns
-    while len(kept) > most:
+    """Return at most so many: the best one, and others that are not about as good in all three as another."""
+    if len(patterns) <= most or most == 1:
+        return patterns[:most]
+    best, *others = patterns
+    share, kept = 0.0, others
+    while len(kept) > most - 1:  # ever more loosely
         share = share + 0.005 if share < 0.1 else share * 1.2
         kept = []
-        for p in sorted(patterns, key=lambda p: (p["n_blocks"], p["positive"], -p["q_min"])):
+        for p in sorted(others, key=lambda p: (p["n_blocks"], p["positive"], -p["q_min"])):
             if not any(
                 o["n_blocks"] <= p["n_blocks"] * (1 + 2 * share)
                 and o["positive"] <= p["positive"] * (1 + 2 * share)
@@ -102,4 +105,4 @@ def _spread(patterns: list[dict[str, Any]], most: int) -> list[dict[str, Any]]:
                 for o in kept
             ):
                 kept.append(p)
-    return sorted(kept, key=lambda p: -p["q_min"])
+    return [best, *sorted(kept, key=lambda p: -p["q_min"])]

@@ -98,3 +98,11 @@ def test_no_pattern_is_one_line_and_code_1(capsys, words, says):
     assert out == ""
     assert says in err
     assert err.count("\n") == 1
+
+
+@pytest.mark.parametrize("most", [1, 2, 3, 8])
+def test_the_best_pattern_is_shown_however_few_are(capsys, most):
+    assert main(["patterns", "7:1", "--length", "0.7", "--most", str(most)]) == 0
+    rows = [line for line in capsys.readouterr().out.splitlines() if line.startswith("7:")]
+    assert rows[0].split()[0] == "7:4:2:1"
+    assert 1 <= len(rows) <= most
