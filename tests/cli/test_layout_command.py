@@ -22,6 +22,7 @@ from bsgplan.blocks.domain import domain_of
 from bsgplan.cli import main
 from bsgplan.io import read
 from bsgplan.laid_out import load_layout
+from bsgplan.layout_pipeline import compile_kernels
 from bsgplan.sizing import size_field
 
 CASES = Path(__file__).resolve().parents[2] / "cases"
@@ -37,6 +38,12 @@ MEASURES = {
 def said(capsys, *words):
     code = main(["layout", *words])
     return code, *capsys.readouterr()
+
+
+@pytest.fixture(scope="module", autouse=True)
+def kernels():
+    """Compiled before any test, so that none hears of it."""
+    compile_kernels()
 
 
 @pytest.fixture(scope="module")
