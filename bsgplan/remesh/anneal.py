@@ -16,6 +16,7 @@ from ..blocks.anneal import POLISH, POWERS, SIZE_WEIGHT, size_rms
 from ..blocks.placed import PlacedMesh
 from ..blocks.smooth import qualities
 from .cut import Cut
+from .mend import mended
 
 HOT, COLD = 0.35, 0.03
 """First and last temperature, in units of the energy of a triangle."""
@@ -50,6 +51,8 @@ class Wish:
     """Triangles wanted."""
     size_misfit: float
     """rms of log(edge / wanted edge) that the part has now."""
+    quality: float = 0.0
+    """Triangles under this mean ratio are mended."""
 
 
 def remeshed(
@@ -90,7 +93,8 @@ def remeshed(
                 stray = size_rms(cut.domain, mesh, log_size) / max(wish.size_misfit, 1e-6)
                 weight = float(np.clip(weight * np.clip(stray, 0.7, 1.5), SIZE_WEIGHT, MOST_SIZE_WEIGHT))
         progress(f"{np.count_nonzero(mesh.is_irregular)} irregular vertices", (stage + 1) / (n_stages + 1))
-    return polished(cut, mesh, log_size, size_weight=weight, offset=offset)
+    mesh = polished(cut, mesh, log_size, size_weight=weight, offset=offset)
+    return mended(cut.domain, mesh, log_size, wish.quality, seed=seed, offset=offset)
 
 
 def n_sweeps(n_triangles: int, effort: int) -> int:
@@ -105,24 +109,17 @@ def n_sweeps(n_triangles: int, effort: int) -> int:
 def polished(
     cut: Cut, mesh: PlacedMesh, log_size: Floats, *, size_weight: float, offset: float
 ) -> PlacedMesh:
-    """Return the mesh with its vertices moved, more and more for its worst triangle; sizes as they weigh.
-
-    Where sizes leave the worst triangle worse than the part had it, quality alone is asked for.
-    """
+    """Return the mesh with its vertices moved, more and more for its worst triangle; sizes as they weigh."""
     from ..blocks.kernel.exchange import load, unload
     from ..blocks.kernel.state import POWER
     from ..blocks.kernel.sweeps import relax_all, renew
 
-    best = mesh
-    for size in (size_weight, 0.0):
-        state = load(cut.domain, mesh, log_size, room=1.0, size_weight=size, bend_weight=0.0, offset=offset)
-        for power in POWERS:
-            state.scalar[POWER] = power
-            renew(state)
-            relax_all(state, POLISH)
-        moved = unload(state)
-        if qualities(moved).min() > qualities(best).min():
-            best = moved
-        if qualities(best).min() >= qualities(cut.start).min():
-            break
-    return best
+    state = load(
+        cut.domain, mesh, log_size, room=1.0, size_weight=size_weight, bend_weight=0.0, offset=offset
+    )
+    for power in POWERS:
+        state.scalar[POWER] = power
+        renew(state)
+        relax_all(state, POLISH)
+    moved = unload(state)
+    return moved if qualities(moved).min() > qualities(mesh).min() else mesh

@@ -156,11 +156,10 @@ def _attempt(
     log_size = size.log_h[part.point] - np.log(part.domain.scale)
     is_own = size.source == "edges"
     wanted = float(before.n_triangles) if is_own else float(size.triangle_weights[inside].sum())
-    misfit = size_rms(part.domain, part.start, log_size)
+    quality = max(before.q_min, terms.min_quality or 0.0)
+    wish = Wish(wanted, size_rms(part.domain, part.start, log_size), quality)
     for turn in range(TURNS if before.n_triangles <= SMALL else 1):
-        placed = remeshed(
-            part, log_size, Wish(wanted, misfit), effort=effort, seed=seed + STAGES * turn, progress=progress
-        )
+        placed = remeshed(part, log_size, wish, effort=effort, seed=seed + STAGES * turn, progress=progress)
         tried = graft(mesh, [(part, placed)])
         is_new = np.arange(tried.mesh.n_triangles) >= tried.n_outside
         after = measured(tried.mesh, tried.at_points(size.log_h), is_new, _points_of(tried.mesh, is_new))

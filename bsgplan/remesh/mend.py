@@ -1,0 +1,193 @@
+"""Poor spots of an annealed part annealed again, each by itself, its rim frozen: what chance left there.
+
+The same mesh comes back but for the patches around triangles under a least quality, and a patch is exchanged
+only for one whose worst triangle is better.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+from ..arrays import Bools, Floats, Ints
+from ..blocks.anneal import POLISH, POWERS
+from ..blocks.domain import Domain
+from ..blocks.placed import FROZEN, FROZEN_SIDE, PlacedMesh
+from ..blocks.smooth import qualities
+from ..mesh.topology import topology
+
+TURNS = ((3, 0.6), (4, 0.2), (4, 0.05), (6, 0.2))
+"""Rings of triangles around a poor one that are annealed, and the weight of irregular vertices there."""
+
+POWER_OF_PATCHES = 4.0
+"""Exponent of 1/q while a patch is annealed: the worst triangle counts."""
+
+HOT, COLD, SWEEPS, MOVES = 0.25, 0.03, 80, 2
+"""First and last temperature, sweeps, moves a triangle and sweep."""
+
+MOST_SPOTS = 60
+"""Spots mended in a turn at most, the worst ones."""
+
+
+@dataclass(frozen=True, eq=False)
+class Patch:
+    """Some triangles of a placed mesh, apart."""
+
+    inside: Bools
+    """Its triangles, (n_triangles,)."""
+    mesh: PlacedMesh
+    """They alone, the rim frozen, one vertex a fan."""
+    source: Ints
+    """Vertex of the whole that each of its vertices is."""
+
+
+def mended(
+    domain: Domain, mesh: PlacedMesh, log_size: Floats, least: float, *, seed: int, offset: float
+) -> PlacedMesh:
+    """Return a mesh whose triangles under the mean ratio least were tried to be made better.
+
+    log_size is the log of the wanted edge at the domain's points, offset what is added to it.
+    """
+    for turn, (n_rings, weight) in enumerate(TURNS):
+        spots = _spots(mesh, least, n_rings)
+        if not len(spots):
+            break
+        for number, centre in enumerate(spots):
+            inside = _around(mesh, centre, n_rings)
+            patch = patch_of(mesh, inside)
+            made = _annealed(domain, patch.mesh, log_size, seed + 1000 * turn + number, offset, weight)
+            if qualities(made).min() > qualities(mesh)[inside].min():
+                mesh = spliced(mesh, patch, made)
+    return mesh
+
+
+def patch_of(mesh: PlacedMesh, inside: Bools) -> Patch:
+    """Return some triangles of a mesh apart, frozen where they meet the others."""
+    corners = mesh.triangles[inside]
+    whole, codes = mesh.topology, mesh.codes[inside]
+    used, local = np.unique(corners, return_inverse=True)
+    fan = topology(local.reshape(-1, 3), len(used)).corner_fan
+    source = np.empty(int(fan.max()) + 1, dtype=np.int64)
+    source[fan] = corners
+    meets = np.zeros(len(mesh.points), dtype=bool)
+    meets[mesh.triangles[~inside]] = True
+    own = topology(fan, len(source))
+    is_rim = own.is_boundary_edge[own.cell_edges[:, [1, 2, 0]]]
+    apart = PlacedMesh(
+        points=mesh.points[source],
+        triangles=fan,
+        codes=np.where(is_rim, FROZEN_SIDE, codes),
+        kinds=np.where(meets[source], FROZEN, mesh.kinds[source]),
+        curves=mesh.curves[source],
+        arcs=mesh.arcs[source],
+        goals=mesh.goals[source] - (whole.valence[source] - own.valence),
+        hints=mesh.hints[source],
+    )
+    return Patch(inside, apart, source)
+
+
+def spliced(mesh: PlacedMesh, patch: Patch, made: PlacedMesh) -> PlacedMesh:
+    """Return the mesh with a patch replaced by what was made of it; vertices that stay keep their order."""
+    frozen = patch.source[patch.mesh.kinds == FROZEN]
+    stays = np.zeros(len(mesh.points), dtype=bool)
+    stays[mesh.triangles[~patch.inside]] = True
+    stays[frozen] = True
+    number = np.where(stays, np.cumsum(stays) - 1, -1)
+    is_new = made.kinds != FROZEN
+    index = np.empty(len(made.points), dtype=np.int64)
+    index[~is_new] = number[frozen]
+    index[is_new] = np.count_nonzero(stays) + np.arange(np.count_nonzero(is_new))
+    outside = ~patch.inside
+
+    def joined(name: str) -> np.ndarray:
+        return np.concatenate([getattr(mesh, name)[stays], getattr(made, name)[is_new]])
+
+    codes = made.codes.copy()
+    codes[codes == FROZEN_SIDE] = -1
+    triangles = np.concatenate([number[mesh.triangles[outside]], index[made.triangles]])
+    return _with_codes(
+        mesh,
+        PlacedMesh(
+            points=joined("points"),
+            triangles=triangles,
+            codes=np.concatenate([mesh.codes[outside], codes]),
+            kinds=joined("kinds"),
+            curves=joined("curves"),
+            arcs=joined("arcs"),
+            goals=joined("goals"),
+            hints=joined("hints"),
+        ),
+        number,
+    )
+
+
+def _with_codes(old: PlacedMesh, new: PlacedMesh, number: Ints) -> PlacedMesh:
+    """Return the new mesh with the codes of the old one's frozen sides, whose ends both stay."""
+    triangle, side = np.nonzero(old.codes == FROZEN_SIDE)
+    ends = [number[old.triangles[triangle, (side + step) % 3]] for step in (1, 2)]
+    n = len(new.points)
+    keys = np.unique(np.minimum(*ends) * n + np.maximum(*ends))
+    a, b = new.triangles[:, [1, 2, 0]], new.triangles[:, [2, 0, 1]]
+    is_frozen = np.isin(np.minimum(a, b) * n + np.maximum(a, b), keys)
+    codes = np.where(is_frozen, FROZEN_SIDE, new.codes)
+    return PlacedMesh(new.points, new.triangles, codes, new.kinds, new.curves, new.arcs, new.goals, new.hints)
+
+
+def _annealed(
+    domain: Domain, mesh: PlacedMesh, log_size: Floats, seed: int, offset: float, valence_weight: float
+) -> PlacedMesh:
+    from ..blocks.kernel.anneal import anneal
+    from ..blocks.kernel.exchange import load, unload
+    from ..blocks.kernel.state import POWER, TEMPERATURE, VALENCES
+    from ..blocks.kernel.sweeps import relax_all, renew
+
+    state = load(domain, mesh, log_size, room=3.0, seed=seed, bend_weight=0.0, offset=offset)
+    state.scalar[VALENCES], state.scalar[POWER] = valence_weight, POWER_OF_PATCHES
+    renew(state)
+    for temperature in HOT * (COLD / HOT) ** np.linspace(0.0, 1.0, SWEEPS):
+        state.scalar[TEMPERATURE] = temperature
+        anneal(state, MOVES * len(mesh.triangles))
+    for power in POWERS:
+        state.scalar[POWER] = power
+        renew(state)
+        relax_all(state, POLISH)
+    return unload(state)
+
+
+def _spots(mesh: PlacedMesh, least: float, n_rings: int) -> Floats:
+    """Return the centroid of the worst triangle of each patch to be mended, the worst first, (k, 2)."""
+    quality = qualities(mesh)
+    poor = np.flatnonzero(quality < least)
+    if not len(poor):
+        return np.empty((0, 2))
+    near = _rings(mesh, quality < least, n_rings)
+    chosen = np.flatnonzero(near)
+    place = np.full(len(near), -1)
+    place[chosen] = np.arange(len(chosen))
+    pair = mesh.topology.neighbours
+    pair = place[pair[near[pair].all(axis=1)]]
+    graph = coo_array((np.ones(len(pair)), (pair[:, 0], pair[:, 1])), shape=(len(chosen), len(chosen)))
+    spot = connected_components(graph, directed=False)[1][place[poor]]
+    order = np.argsort(quality[poor], kind="stable")
+    _, first = np.unique(spot[order], return_index=True)
+    worst = poor[order[np.sort(first)]][:MOST_SPOTS]
+    return np.asarray(mesh.points[mesh.triangles[worst]].mean(axis=1))
+
+
+def _around(mesh: PlacedMesh, centre: Floats, n_rings: int) -> Bools:
+    """Return the triangles within so many rings of the one nearest to a place."""
+    middles = mesh.points[mesh.triangles].mean(axis=1)
+    start = np.zeros(len(middles), dtype=bool)
+    start[np.argmin(((middles - centre) ** 2).sum(axis=1))] = True
+    return _rings(mesh, start, n_rings)
+
+
+def _rings(mesh: PlacedMesh, triangles: Bools, n_rings: int) -> Bools:
+    for _ in range(n_rings):
+        at = np.zeros(len(mesh.points), dtype=bool)
+        at[mesh.triangles[triangles]] = True
+        triangles = np.asarray(at[mesh.triangles].any(axis=1))
+    return triangles
