@@ -1,4 +1,4 @@
-"""Patches: put back as they were they change nothing; mended, the worst triangle is better, the rim as it was."""
+"""Patches: put back they change nothing; mended, the worst triangle is better and the rim as it was."""
 
 import numpy as np
 from hypothesis import given, settings
