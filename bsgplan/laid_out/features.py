@@ -101,6 +101,8 @@ def region_array(mesh_file: MeshFile) -> str | None:
 def _named(mesh_file: MeshFile, keep: Iterable[str | int]) -> tuple[set[int], list[int]]:
     """Return the boundaries and the points that are named."""
     lines, points = set[int](), list[int]()
+    made_here = np.arange(mesh_file.mesh.n_points)
+    in_file = mesh_file.kept_points if len(mesh_file.kept_points) else made_here
     names = [(name, boundary.name) for (_, name), boundary in
              zip(labels(mesh_file.boundaries), mesh_file.boundaries, strict=True)]  # fmt: skip
     for word in keep:
@@ -108,11 +110,10 @@ def _named(mesh_file: MeshFile, keep: Iterable[str | int]) -> tuple[set[int], li
         if found:
             lines |= found
         elif str(word).isdecimal():
-            own = np.flatnonzero(mesh_file.kept_points == int(word))
+            own = np.flatnonzero(in_file == int(word))
             if not len(own):
                 raise InvalidOption(
-                    f"--keep {word}: no point in use of {mesh_file.path} has this number; "
-                    f"they count from 0 to {mesh_file.kept_points[-1]}"
+                    f"--keep {word}: the points of {mesh_file.path} that are in use count from 0 to {in_file[-1]}"
                 )
             points.append(int(own[0]))
         else:
