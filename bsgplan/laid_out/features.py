@@ -113,7 +113,8 @@ def _named(mesh_file: MeshFile, keep: Iterable[str | int]) -> tuple[set[int], li
             own = np.flatnonzero(in_file == int(word))
             if not len(own):
                 raise InvalidOption(
-                    f"--keep {word}: the points of {mesh_file.path} that are in use count from 0 to {in_file[-1]}"
+                    f"--keep {word}: no point in use of {mesh_file.path} has this number; "
+                    f"they count from 0 to {in_file[-1]}"
                 )
             points.append(int(own[0]))
         else:
