@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from bsgplan.blocks.domain import domain_of
+from bsgplan.blocks.kinds import INTERIOR, SLIDING
 from bsgplan.blocks.layout import BlockGrid, BlockLayout
-from bsgplan.blocks.placed import INTERIOR, SLIDING, PlacedMesh
+from bsgplan.blocks.placed import PlacedMesh
 from bsgplan.blocks.subdivide import subdivide
 from bsgplan.blocks.target import Target
 from bsgplan.mesh import Mesh

@@ -6,7 +6,8 @@ import numpy as np
 
 from ..arrays import Floats, Ints
 from .domain import Domain
-from .placed import JUNCTION, PlacedMesh
+from .kinds import JUNCTION
+from .placed import PlacedMesh
 
 
 class CurvePlaces:

@@ -6,6 +6,7 @@ import numpy as np
 
 from ..arrays import Floats
 from .layout import BlockGrid, BlockLayout
+from .placed import grown
 from .smooth import qualities, smooth
 from .subdivide import subdivide
 
@@ -31,11 +32,9 @@ def unbent(grid: BlockGrid) -> BlockGrid:
         is_flat = qualities(grid.placed) < poor
         if grid.is_straight or not is_flat.any():
             break
-        blocks = grid.layout.placed.triangles
-        is_near = np.zeros(len(grid.layout.placed.points), dtype=bool)
-        is_near[blocks[grid.block[is_flat]]] = True
-        near = is_near[blocks].any(axis=1)
-        bend[edges.cell_edges[near]] = share
+        is_poor = np.zeros(grid.layout.n_blocks, dtype=bool)
+        is_poor[grid.block[is_flat]] = True
+        bend[edges.cell_edges[grown(grid.layout.placed, is_poor, 1)]] = share
         grid = _grid(grid.layout, bend, is_straight=False)
     return grid
 

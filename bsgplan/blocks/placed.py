@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -10,13 +10,7 @@ import numpy as np
 from ..arrays import Bools, Floats, Ints
 from ..mesh.topology import Topology, topology
 from .domain import Domain
-
-INTERIOR, SLIDING, CORNER, JUNCTION, FROZEN = 0, 1, 2, 3, 4
-"""Kinds of vertices: free; on a curve; fixed, on one curve or none; fixed where curves meet or end; fixed,
-its goal exact."""
-
-FROZEN_SIDE = -2
-"""Code of a side that stays as it is: never split, collapsed or flipped. Both its ends are FROZEN."""
+from .kinds import CORNER, INTERIOR, JUNCTION, SLIDING
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,6 +80,10 @@ def place(domain: Domain, is_corner: Bools, turning: Floats) -> PlacedMesh:
     )
 
 
-def with_points(mesh: PlacedMesh, points: Floats) -> PlacedMesh:
-    """Return the same mesh with its vertices elsewhere."""
-    return replace(mesh, points=points)
+def grown(mesh: PlacedMesh, is_chosen: Bools, n_rings: int) -> Bools:
+    """Return the chosen triangles, (n_triangles,), and those within so many rings of them."""
+    for _ in range(n_rings):
+        is_near = np.zeros(len(mesh.points), dtype=bool)
+        is_near[mesh.triangles[is_chosen]] = True
+        is_chosen = np.asarray(is_near[mesh.triangles].any(axis=1))
+    return is_chosen

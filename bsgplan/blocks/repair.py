@@ -39,8 +39,8 @@ STEEPEST = 1.0
 SWEEPS, COLD = 8, 0.03
 """Sweeps of the quench and their temperature."""
 
-POWERS, POLISH = (1.0, 2.0, 4.0, 8.0), 10
-"""Exponents of 1/q and sweeps at each afterwards."""
+POLISH = 10
+"""Sweeps at each exponent of the polish afterwards."""
 
 GAIN = 0.01
 """A repair has to raise the least quality by more than this."""
@@ -104,21 +104,14 @@ def _lowered(layout: BlockLayout, poor: Ints) -> BlockLayout:
 
 def _quenched(domain: Domain, blocks: PlacedMesh, log_size: Floats, seed: int) -> PlacedMesh:
     """Return blocks remeshed towards the wanted size where they are off it, and annealed in the cold."""
-    from .kernel.anneal import anneal
     from .kernel.coarsen import coarsen
     from .kernel.exchange import load, unload
-    from .kernel.state import POWER, TEMPERATURE
-    from .kernel.sweeps import relax_all, renew
+    from .kernel.schedule import cool, polish
 
     state = load(domain, blocks, log_size, seed=seed)
     coarsen(state, ROUNDS)
-    state.scalar[TEMPERATURE] = COLD
-    for _ in range(SWEEPS):
-        anneal(state, len(blocks.triangles))
-    for power in POWERS:
-        state.scalar[POWER] = power
-        renew(state)
-        relax_all(state, POLISH)
+    cool(state, [COLD] * SWEEPS, len(blocks.triangles))
+    polish(state, POLISH)
     return unload(state)
 
 

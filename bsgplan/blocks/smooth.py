@@ -6,16 +6,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..arrays import Bools, Floats, Ints
+from ..arrays import Floats
 from ..mesh.quality import corner_edge_lengths, mean_ratio, signed_areas
 from .domain import Domain
-from .placed import CORNER, SLIDING, PlacedMesh
-
-POWERS = (1.0, 2.0, 4.0, 8.0)
-"""Exponents of 1/q, one after the other: the higher, the more the worst triangle counts."""
+from .kinds import CORNER, SLIDING
+from .placed import PlacedMesh, grown
 
 SWEEPS = 7
-"""Relaxations of every node at each exponent."""
+"""Relaxations of every node at each exponent of the polish."""
 
 POOR = 0.3
 """Triangles under this mean ratio are mended with the boundary nodes beside them free to slide."""
@@ -46,7 +44,8 @@ def smooth(domain: Domain, mesh: PlacedMesh, log_size: Floats) -> PlacedMesh:
         if qualities(moved).min() >= qualities(mesh).min():
             break
     if qualities(best).min() < POOR:
-        near = _near(best, qualities(best) < POOR, RINGS)
+        near = np.zeros(len(best.points), dtype=bool)
+        near[best.triangles[grown(best, qualities(best) < POOR, RINGS)]] = True
         loose = replace(best, kinds=np.where((best.kinds == SLIDING) & ~near, CORNER, best.kinds))
         moved = _relaxed(domain, loose, log_size, 0.1)
         if qualities(moved).min() > qualities(best).min():
@@ -56,21 +55,8 @@ def smooth(domain: Domain, mesh: PlacedMesh, log_size: Floats) -> PlacedMesh:
 
 def _relaxed(domain: Domain, mesh: PlacedMesh, log_size: Floats, size_weight: float) -> PlacedMesh:
     from .kernel.exchange import load, unload
-    from .kernel.state import POWER
-    from .kernel.sweeps import relax_all, renew
+    from .kernel.schedule import polish
 
     state = load(domain, mesh, log_size, room=1.0, size_weight=size_weight, bend_weight=0.0)
-    for power in POWERS:
-        state.scalar[POWER] = power
-        renew(state)
-        relax_all(state, SWEEPS)
+    polish(state, SWEEPS)
     return unload(state)
-
-
-def _near(mesh: PlacedMesh, is_poor: Bools, n_rings: int) -> Bools:
-    is_near = np.zeros(len(mesh.points), dtype=bool)
-    triangles: Ints = mesh.triangles
-    is_near[triangles[is_poor]] = True
-    for _ in range(n_rings):
-        is_near[triangles[is_near[triangles].any(axis=1)]] = True
-    return is_near

@@ -10,7 +10,8 @@ import numpy as np
 from ..arrays import Floats, Ints
 from .curve_places import CurvePlaces, side_arcs
 from .domain import Domain
-from .placed import CORNER, INTERIOR, JUNCTION, SLIDING, PlacedMesh
+from .kinds import CORNER, INTERIOR, JUNCTION, SLIDING
+from .placed import PlacedMesh
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,7 +1,6 @@
 """A part of a mesh annealed at the mesh's own size: the fewest irregular vertices that fit its frozen rim.
 
-Deterministic: the same seed gives the same mesh. The wanted size is shifted while the annealing runs until
-there are as many triangles as wanted, and the weight of sizes raised while edges stray more than before.
+Deterministic: the same seed gives the same mesh.
 """
 
 from __future__ import annotations
@@ -12,32 +11,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import Floats
-from ..blocks.anneal import POLISH, POWERS, SIZE_WEIGHT, size_rms
+from ..blocks.anneal import POLISH
+from ..blocks.cooling import STAGES, Schedule, cooled
 from ..blocks.placed import PlacedMesh
 from ..blocks.smooth import qualities
 from .cut import Cut
 from .mend import mended
 
-HOT, COLD = 0.35, 0.03
-"""First and last temperature, in units of the energy of a triangle."""
-
-MOVES = 2
-"""Moves a triangle and sweep."""
-
-STAGES = 10
-"""The annealing halts so many times to relax everything, to renew energies and to steer."""
-
-STEERED = 9
-"""Stages after which the count is no longer steered."""
-
-SHIFT, MOST_SHIFT = -0.05, 0.2
-"""First and largest shift of the log of the wanted edge: a mesh of few defects has fewer triangles."""
-
-GAIN = 0.3
-"""Share of the log of triangles over wanted by which a stage shifts it; they follow slowly."""
-
-MOST_SIZE_WEIGHT = 2.0
-"""The most that the weight of sizes is raised to."""
+SCHEDULE = Schedule(
+    hot=0.35, cold=0.03, moves=2, steered=9, gain=0.3, most_shift=0.2, most_size_weight=2.0, first_shift=-0.05
+)  # fmt: skip
+"""How parts are annealed: a mesh of few defects has fewer triangles, and they follow a shift slowly."""
 
 SMALL, MOST_FOLD = 16_000, 4.0
 """Parts of fewer triangles get sqrt(SMALL / triangles) times the sweeps, at most MOST_FOLD times."""
@@ -69,32 +53,22 @@ def remeshed(
     log_size is the log of the wanted edge at the domain's points, in its unit. effort is the number of sweeps
     for SMALL triangles. progress hears of the irregular vertices and the share of the work done.
     """
-    from ..blocks.kernel.anneal import anneal
-    from ..blocks.kernel.exchange import load, unload
-    from ..blocks.kernel.state import TEMPERATURE
-    from ..blocks.kernel.sweeps import relax_all
-
-    mesh, offset, weight = cut.start, SHIFT, SIZE_WEIGHT
-    temperatures = HOT * (COLD / HOT) ** np.linspace(0.0, 1.0, n_sweeps(len(mesh.triangles), effort))
-    n_stages = min(STAGES, len(temperatures))
-    for stage, part in enumerate(np.array_split(temperatures, n_stages)):
-        state = load(
-            cut.domain, mesh, log_size, seed=seed + stage, size_weight=weight, bend_weight=0.0, offset=offset
-        )
-        for temperature in part:
-            state.scalar[TEMPERATURE] = temperature
-            anneal(state, MOVES * len(mesh.triangles))
-        relax_all(state, 2)
-        mesh = unload(state)
-        if stage < STEERED:
-            shift = offset + GAIN * np.log(len(mesh.triangles) / wish.n_triangles)
-            offset = float(np.clip(shift, -MOST_SHIFT, MOST_SHIFT))
-            if stage > 1:
-                stray = size_rms(cut.domain, mesh, log_size) / max(wish.size_misfit, 1e-6)
-                weight = float(np.clip(weight * np.clip(stray, 0.7, 1.5), SIZE_WEIGHT, MOST_SIZE_WEIGHT))
-        progress(f"{np.count_nonzero(mesh.is_irregular)} irregular vertices", (stage + 1) / (n_stages + 1))
-    mesh = polished(cut, mesh, log_size, size_weight=weight, offset=offset)
-    return mended(cut.domain, mesh, log_size, wish.quality, seed=seed, offset=offset)
+    n = n_sweeps(len(cut.start.triangles), effort)
+    n_stages = min(STAGES, n)
+    end = cooled(
+        cut.domain,
+        cut.start,
+        log_size,
+        SCHEDULE,
+        n_sweeps=n,
+        n_wanted=wish.n_triangles,
+        rms_wanted=max(wish.size_misfit, 1e-6),
+        bend_weight=0.0,
+        seed=seed,
+        progress=lambda text, share: progress(text, share * n_stages / (n_stages + 1)),
+    )
+    mesh = polished(cut, end.mesh, log_size, size_weight=end.size_weight, offset=end.offset)
+    return mended(cut.domain, mesh, log_size, wish.quality, seed=seed, offset=end.offset)
 
 
 def n_sweeps(n_triangles: int, effort: int) -> int:
@@ -111,15 +85,11 @@ def polished(
 ) -> PlacedMesh:
     """Return the mesh with its vertices moved, more and more for its worst triangle; sizes as they weigh."""
     from ..blocks.kernel.exchange import load, unload
-    from ..blocks.kernel.state import POWER
-    from ..blocks.kernel.sweeps import relax_all, renew
+    from ..blocks.kernel.schedule import polish
 
     state = load(
         cut.domain, mesh, log_size, room=1.0, size_weight=size_weight, bend_weight=0.0, offset=offset
     )
-    for power in POWERS:
-        state.scalar[POWER] = power
-        renew(state)
-        relax_all(state, POLISH)
+    polish(state, POLISH)
     moved = unload(state)
     return moved if qualities(moved).min() > qualities(mesh).min() else mesh

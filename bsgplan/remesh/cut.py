@@ -12,7 +12,8 @@ import numpy as np
 
 from ..arrays import Bools, Floats, Ints, sums_by
 from ..blocks.domain import Domain, domain_of
-from ..blocks.placed import FROZEN, FROZEN_SIDE, PlacedMesh, place
+from ..blocks.kinds import FROZEN, FROZEN_SIDE
+from ..blocks.placed import PlacedMesh, place
 from ..mesh import Mesh
 from ..mesh.quality import angles
 

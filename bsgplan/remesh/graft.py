@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import Floats, Ints
-from ..blocks.placed import FROZEN, PlacedMesh
+from ..blocks.kinds import FROZEN
+from ..blocks.placed import PlacedMesh
 from ..mesh import Mesh
 from .cut import Cut
 

@@ -6,10 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import Bools, Floats, Ints
+from ..arrays import Bools, Floats
 from ..mesh import Mesh
 from ..mesh.irregularity import Irregularity, fitted_boundary_irregularity, summed
 from ..mesh.quality import angles
+from ..sizing.misfit import size_misfit
 
 
 @dataclass(frozen=True)
@@ -61,10 +62,5 @@ def measured(
         q_min=float(quality.min()),
         q_1_percent=float(np.quantile(quality, 0.01)),
         q_mean=float(quality.mean()),
-        size_misfit=_misfit(mesh, log_size, edge),
+        size_misfit=size_misfit(mesh.edge_lengths[edge], topology.edges[edge], log_size),
     )
-
-
-def _misfit(mesh: Mesh, log_size: Floats, edge: Ints) -> float:
-    density = np.exp(-log_size)[mesh.topology.edges[edge]].mean(axis=1)
-    return float(np.sqrt((np.log(mesh.edge_lengths[edge] * density) ** 2).mean()))

@@ -6,16 +6,17 @@ only for one whose worst triangle is better.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from ..arrays import Bools, Floats, Ints
-from ..blocks.anneal import POLISH, POWERS
+from ..blocks.anneal import POLISH
 from ..blocks.domain import Domain
-from ..blocks.placed import FROZEN, FROZEN_SIDE, PlacedMesh
+from ..blocks.kinds import FROZEN, FROZEN_SIDE
+from ..blocks.placed import PlacedMesh, grown
 from ..blocks.smooth import qualities
 from ..mesh.topology import topology
 
@@ -133,27 +134,22 @@ def _with_codes(old: PlacedMesh, new: PlacedMesh, number: Ints) -> PlacedMesh:
     a, b = new.triangles[:, [1, 2, 0]], new.triangles[:, [2, 0, 1]]
     is_frozen = np.isin(np.minimum(a, b) * n + np.maximum(a, b), keys)
     codes = np.where(is_frozen, FROZEN_SIDE, new.codes)
-    return PlacedMesh(new.points, new.triangles, codes, new.kinds, new.curves, new.arcs, new.goals, new.hints)
+    return replace(new, codes=codes)
 
 
 def _annealed(
     domain: Domain, mesh: PlacedMesh, log_size: Floats, seed: int, offset: float, valence_weight: float
 ) -> PlacedMesh:
-    from ..blocks.kernel.anneal import anneal
     from ..blocks.kernel.exchange import load, unload
-    from ..blocks.kernel.state import POWER, TEMPERATURE, VALENCES
-    from ..blocks.kernel.sweeps import relax_all, renew
+    from ..blocks.kernel.schedule import cool, falling, polish
+    from ..blocks.kernel.state import POWER, VALENCES
+    from ..blocks.kernel.sweeps import renew
 
     state = load(domain, mesh, log_size, room=3.0, seed=seed, bend_weight=0.0, offset=offset)
     state.scalar[VALENCES], state.scalar[POWER] = valence_weight, POWER_OF_PATCHES
     renew(state)
-    for temperature in HOT * (COLD / HOT) ** np.linspace(0.0, 1.0, SWEEPS):
-        state.scalar[TEMPERATURE] = temperature
-        anneal(state, MOVES * len(mesh.triangles))
-    for power in POWERS:
-        state.scalar[POWER] = power
-        renew(state)
-        relax_all(state, POLISH)
+    cool(state, falling(HOT, COLD, SWEEPS), MOVES * len(mesh.triangles))
+    polish(state, POLISH)
     return unload(state)
 
 
@@ -163,7 +159,7 @@ def _spots(mesh: PlacedMesh, least: float, n_rings: int) -> Floats:
     poor = np.flatnonzero(quality < least)
     if not len(poor):
         return np.empty((0, 2))
-    near = _rings(mesh, quality < least, n_rings)
+    near = grown(mesh, quality < least, n_rings)
     chosen = np.flatnonzero(near)
     place = np.full(len(near), -1)
     place[chosen] = np.arange(len(chosen))
@@ -182,12 +178,4 @@ def _around(mesh: PlacedMesh, centre: Floats, n_rings: int) -> Bools:
     middles = mesh.points[mesh.triangles].mean(axis=1)
     start = np.zeros(len(middles), dtype=bool)
     start[np.argmin(((middles - centre) ** 2).sum(axis=1))] = True
-    return _rings(mesh, start, n_rings)
-
-
-def _rings(mesh: PlacedMesh, triangles: Bools, n_rings: int) -> Bools:
-    for _ in range(n_rings):
-        at = np.zeros(len(mesh.points), dtype=bool)
-        at[mesh.triangles[triangles]] = True
-        triangles = np.asarray(at[mesh.triangles].any(axis=1))
-    return triangles
+    return grown(mesh, start, n_rings)

@@ -8,13 +8,13 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..arrays import Bools, Floats, Ints
-from ..blocks.anneal import size_rms
+from ..blocks.cooling import STAGES, size_rms
 from ..blocks.placed import PlacedMesh
 from ..mesh import Mesh
 from ..regions.labels import connected
 from ..sizing import SizeField
 from .accept import Terms, gains, refusal
-from .anneal import STAGES, Wish, remeshed
+from .anneal import Wish, remeshed
 from .cut import Cut, cut
 from .graft import Graft, graft
 from .measures import Measures, measured

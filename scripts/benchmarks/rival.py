@@ -18,10 +18,11 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from bsgplan.arrays import Floats, Ints
-from bsgplan.blocks.anneal import POLISH, POWERS
+from bsgplan.blocks.anneal import POLISH
 from bsgplan.blocks.curve_places import CurvePlaces
 from bsgplan.blocks.domain import Domain
-from bsgplan.blocks.placed import CORNER, INTERIOR, SLIDING, PlacedMesh
+from bsgplan.blocks.kinds import CORNER, INTERIOR, SLIDING
+from bsgplan.blocks.placed import PlacedMesh
 from bsgplan.blocks.target import Target, n_blocks
 
 RUNS = 5
@@ -203,13 +204,9 @@ def _upright(points: Floats, triangles: Ints) -> Ints:
 def polished(domain: Domain, mesh: PlacedMesh, wanted: Floats) -> PlacedMesh:
     """Return the mesh with its vertices moved as the polish of an annealing moves them."""
     from bsgplan.blocks.kernel.exchange import load, unload
-    from bsgplan.blocks.kernel.state import POWER
-    from bsgplan.blocks.kernel.sweeps import relax_all, renew
+    from bsgplan.blocks.kernel.schedule import polish
 
     offset = 0.5 * float(np.log(n_blocks(domain, wanted) / len(mesh.triangles)))
     state = load(domain, mesh, np.log(wanted), offset=offset)
-    for power in POWERS:
-        state.scalar[POWER] = power
-        renew(state)
-        relax_all(state, POLISH)
+    polish(state, POLISH)
     return unload(state)

@@ -8,7 +8,8 @@ import pytest
 
 from bsgplan.blocks.corners import find_corners
 from bsgplan.blocks.domain import Domain, domain_of
-from bsgplan.blocks.placed import CORNER, INTERIOR, JUNCTION, SLIDING, place
+from bsgplan.blocks.kinds import CORNER, INTERIOR, JUNCTION, SLIDING
+from bsgplan.blocks.placed import place
 from bsgplan.errors import InvalidMesh
 from bsgplan.mesh import Mesh, clean
 

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from layouts_by_hand import hexagon
 
 from bsgplan.blocks.floor import floor_of
+from bsgplan.blocks.kinds import CORNER
 from bsgplan.blocks.levels import level, levels, ranks, sides
-from bsgplan.blocks.placed import CORNER
 from bsgplan.mesh.topology import topology
 
 

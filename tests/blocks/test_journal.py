@@ -19,7 +19,6 @@ from bsgplan.blocks.kernel.relax import relax_vertex
 from bsgplan.blocks.kernel.split import can_split, split
 from bsgplan.blocks.kernel.state import (
     ARC,
-    CORNER,
     DELTA,
     ENERGY,
     KIND,
@@ -33,6 +32,7 @@ from bsgplan.blocks.kernel.state import (
     VALENCE,
     State,
 )
+from bsgplan.blocks.kinds import CORNER
 from bsgplan.blocks.placed import place
 
 N_MOVES = 250

@@ -21,7 +21,8 @@ from bsgplan.blocks.kernel.size_at import place_on_curve
 from bsgplan.blocks.kernel.state import BEND, POWER, SIZE, State
 from bsgplan.blocks.kernel.sweeps import relax_all, renew
 from bsgplan.blocks.kernel.walk import locate
-from bsgplan.blocks.placed import SLIDING, place
+from bsgplan.blocks.kinds import SLIDING
+from bsgplan.blocks.placed import place
 from bsgplan.blocks.smooth import qualities, smooth
 
 HOLED = domain_of(

@@ -5,7 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import jittered, meshes
 
-from bsgplan.blocks.placed import FROZEN, FROZEN_SIDE
+from bsgplan.blocks.kinds import FROZEN, FROZEN_SIDE
 from bsgplan.blocks.smooth import qualities
 from bsgplan.mesh import Mesh
 from bsgplan.remesh.cut import cut

@@ -12,7 +12,7 @@ import pytest
 import bsgplan
 from bsgplan.blocks.curve_places import CurvePlaces
 from bsgplan.blocks.domain import Domain, domain_of
-from bsgplan.blocks.placed import CORNER, INTERIOR
+from bsgplan.blocks.kinds import CORNER, INTERIOR
 from bsgplan.blocks.smooth import qualities
 from bsgplan.blocks.target import Target, target_of
 from bsgplan.sizing import size_field

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..kinds import CORNER, NO_CURVE
 from .chance import below, uniform
 from .collapse import collapse, kept_end
 from .compiled import compiled
@@ -19,7 +20,6 @@ from .journal import begin, commit, rollback
 from .relax import relax_vertex
 from .split import can_split, split
 from .state import (
-    CORNER,
     DELTA,
     DELTA_VALENCES,
     FAN,
@@ -27,7 +27,6 @@ from .state import (
     KIND,
     N_TRIANGLES,
     N_VERTICES,
-    NO_CURVE,
     OVERFLOW,
     STAMP,
     TEMPERATURE,

@@ -9,10 +9,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..kinds import JUNCTION
 from .compiled import compiled
 from .shape import inverse_quality
 from .size_at import polyline_place
-from .state import ARC, JUNCTION, KIND, State
+from .state import ARC, KIND, State
 
 PARTS = 4
 """Edges into which the side is cut for the test."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ..kinds import CORNER, INTERIOR, NO_CURVE, SLIDING
 from .bend import side_arcs
 from .compiled import compiled
 from .energy import refresh_triangle, set_valence
@@ -10,7 +11,7 @@ from .flip import MOST
 from .journal import give_up, keep_triangle, keep_vertex
 from .rows import anchor, relink
 from .size_at import goal_on_curve, look_up, place_on_curve
-from .state import CORNER, DELTA, GOAL, INTERIOR, KIND, NO_CURVE, SLIDING, VALENCE, State
+from .state import DELTA, GOAL, KIND, VALENCE, State
 
 
 @compiled

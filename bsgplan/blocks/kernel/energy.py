@@ -10,18 +10,17 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..kinds import CORNER, JUNCTION
 from .bend import bend
 from .compiled import compiled
 from .journal import keep_triangle, keep_vertex
 from .shape import SHAPE, soft
 from .state import (
     BEND,
-    CORNER,
     DELTA,
     DELTA_VALENCES,
     ENERGY,
     GOAL,
-    JUNCTION,
     KIND,
     POWER,
     QUALITY,

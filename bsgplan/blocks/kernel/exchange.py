@@ -7,6 +7,7 @@ import numpy as np
 from ...arrays import Floats
 from ..domain import Domain
 from ..placed import PlacedMesh
+from ..weights import BEND_WEIGHT, SHAPE_WEIGHT, SIZE_WEIGHT, VALENCE_WEIGHT
 from .state import (
     ARC,
     BEND,
@@ -26,9 +27,6 @@ from .state import (
     new_state,
 )
 from .sweeps import prepare
-
-SHAPE_WEIGHT, SIZE_WEIGHT, VALENCE_WEIGHT, BEND_WEIGHT = 1.0, 0.5, 0.6, 1.0
-"""Weights of the energy: quality, size, irregularity and the bend of sides."""
 
 
 def load(

@@ -66,10 +66,10 @@ def fan_of(state: State, v: int, row: int) -> tuple[int, bool]:
 
 @compiled
 def are_joined(state: State, a: int, b: int) -> bool:
-    """Return True where an edge joins vertices a and b."""
-    n, _ = fan_of(state, a, 14)
+    """Return True where an edge joins vertices a and b; row 13 of state.fan is scratch."""
+    n, _ = fan_of(state, a, 13)
     for i in range(n):
-        t = state.fan[14, i]
+        t = state.fan[13, i]
         if state.triangle[t, 0] == b or state.triangle[t, 1] == b or state.triangle[t, 2] == b:
             return True
     return n == 0
@@ -83,22 +83,11 @@ def n_common(state: State, a: int, b: int) -> int:
     for i in range(n):
         t = state.fan[14, i]
         ahead = state.triangle[t, (corner_of(state, t, a) + 1) % 3]
-        if ahead != b and are_joined_in(state, b, ahead):
+        if ahead != b and are_joined(state, b, ahead):
             common += 1
     if not is_closed and n:
         t = state.fan[14, n - 1]
         last = state.triangle[t, (corner_of(state, t, a) + 2) % 3]
-        if last != b and are_joined_in(state, b, last):
+        if last != b and are_joined(state, b, last):
             common += 1
     return common
-
-
-@compiled
-def are_joined_in(state: State, a: int, b: int) -> bool:
-    """Return `are_joined`, with scratch of its own so that it can stand inside `n_common`."""
-    n, _ = fan_of(state, a, 13)
-    for i in range(n):
-        t = state.fan[13, i]
-        if state.triangle[t, 0] == b or state.triangle[t, 1] == b or state.triangle[t, 2] == b:
-            return True
-    return n == 0

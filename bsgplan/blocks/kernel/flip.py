@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from ..kinds import CORNER, INTERIOR, JUNCTION, NO_CURVE
 from .compiled import compiled
 from .energy import cost_of_valence, refresh_triangle, set_valence
 from .fan import are_joined, side_to
 from .rows import anchor, put_triangle, relink
-from .state import CORNER, GOAL, INTERIOR, JUNCTION, KIND, NO_CURVE, VALENCE, State
+from .state import GOAL, KIND, VALENCE, State
 
 MOST = 11
 """No vertex gets more edges than this."""

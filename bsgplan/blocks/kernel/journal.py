@@ -6,6 +6,7 @@
 
 from __future__ import annotations
 
+from ...arrays import Ints
 from .compiled import compiled
 from .state import (
     DELTA,
@@ -108,7 +109,7 @@ def take_vertex(state: State) -> int:
     else:
         counter[OVERFLOW] = 1
         return -1
-    _note(state, 0, v)
+    _list(state, state.taken, N_TAKEN, 0, v)
     return v
 
 
@@ -127,29 +128,25 @@ def take_triangle(state: State) -> int:
     else:
         counter[OVERFLOW] = 1
         return -1
-    _note(state, 1, t)
+    _list(state, state.taken, N_TAKEN, 1, t)
     return t
 
 
 @compiled
 def give_up(state: State, what: int, row: int) -> None:
     """Note a row (0 vertex, 1 triangle) that becomes free if the transaction is committed."""
-    k = state.counter[N_FREED]
-    if k >= LOG_ROWS:
-        state.counter[OVERFLOW] = 1
-        return
-    state.freed[k, 0], state.freed[k, 1] = what, row
-    state.counter[N_FREED] = k + 1
+    _list(state, state.freed, N_FREED, what, row)
 
 
 @compiled
-def _note(state: State, what: int, row: int) -> None:
-    k = state.counter[N_TAKEN]
+def _list(state: State, rows: Ints, counted: int, what: int, row: int) -> None:
+    """Put a row on a list of the transaction whose length is counter[counted]."""
+    k = state.counter[counted]
     if k >= LOG_ROWS:
         state.counter[OVERFLOW] = 1
         return
-    state.taken[k, 0], state.taken[k, 1] = what, row
-    state.counter[N_TAKEN] = k + 1
+    rows[k, 0], rows[k, 1] = what, row
+    state.counter[counted] = k + 1
 
 
 @compiled

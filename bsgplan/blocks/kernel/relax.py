@@ -8,27 +8,14 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..kinds import INTERIOR, JUNCTION, SLIDING
 from .compiled import compiled
-from .energy import WANTED, triangle_energy, twice_area
+from .energy import WANTED, refresh_triangle, triangle_energy, twice_area
 from .fan import corner_of, fan_of
-from .journal import keep_triangle, keep_vertex
+from .journal import keep_vertex
 from .shape import SHAPE, SOFT, soft
 from .size_at import look_up, place_on_curve
-from .state import (
-    ARC,
-    CURVE,
-    DELTA,
-    INTERIOR,
-    JUNCTION,
-    KIND,
-    POWER,
-    QUALITY,
-    SIZE,
-    SLIDING,
-    State,
-    U,
-    W,
-)
+from .state import ARC, CURVE, KIND, POWER, QUALITY, SIZE, State, U, W
 
 LONGEST = 0.35
 """Longest step, in wanted edge lengths."""
@@ -68,11 +55,7 @@ def _star(state: State, n: int) -> tuple[float, int]:
 @compiled
 def _accept(state: State, n: int) -> None:
     for i in range(n):
-        t = state.fan[12, i]
-        energy = triangle_energy(state, t)
-        keep_triangle(state, t)
-        state.scalar[DELTA] += energy - state.energy[t]
-        state.energy[t] = energy
+        refresh_triangle(state, state.fan[12, i])
 
 
 @compiled

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..kinds import SLIDING
 from .compiled import compiled
-from .state import ARC, CURVE, HINT, KIND, OFFSET, SLIDING, State, U, W
+from .state import ARC, CURVE, HINT, KIND, OFFSET, State, U, W
 from .walk import walk
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ..kinds import FROZEN_SIDE, INTERIOR, SLIDING
 from .bend import side_arcs
 from .compiled import compiled
 from .energy import refresh_triangle, set_valence
@@ -10,20 +11,7 @@ from .flip import MOST
 from .journal import keep_vertex, take_triangle, take_vertex
 from .rows import anchor, put_triangle, relink
 from .size_at import goal_on_curve, look_up
-from .state import (
-    ARC,
-    CURVE,
-    ENERGY,
-    FROZEN_SIDE,
-    GOAL,
-    HINT,
-    INTERIOR,
-    KIND,
-    SLIDING,
-    TRIANGLE,
-    VALENCE,
-    State,
-)
+from .state import ARC, CURVE, ENERGY, GOAL, HINT, KIND, TRIANGLE, VALENCE, State
 
 
 @compiled

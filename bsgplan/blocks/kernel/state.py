@@ -15,13 +15,6 @@ from ...arrays import Floats, Ints
 from ..corners import boundary_goals
 from ..domain import Domain
 
-INTERIOR, SLIDING, CORNER, JUNCTION, FROZEN = 0, 1, 2, 3, 4
-"""Kinds of vertices: free; on a curve; fixed, on one curve or none; fixed where curves meet or end; fixed,
-its goal exact."""
-
-NO_CURVE, FROZEN_SIDE = -1, -2
-"""Codes of sides on no curve: free, and such as no move may touch, its two ends being fixed."""
-
 TRIANGLE, VALENCE, KIND, CURVE, HINT = range(5)
 """Columns of `vertex`: a triangle at it, number of edges, kind, curve (or -1), domain triangle near it."""
 

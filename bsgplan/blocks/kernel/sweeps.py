@@ -2,25 +2,14 @@
 
 from __future__ import annotations
 
+from ..kinds import SLIDING
 from .compiled import compiled
 from .energy import is_upright, triangle_energy, valence_energy
 from .flip import can_flip, flip
 from .journal import begin, commit, rollback
 from .relax import relax_vertex
 from .size_at import goal_on_curve, look_up
-from .state import (
-    DELTA,
-    ENERGY,
-    GOAL,
-    KIND,
-    N_TRIANGLES,
-    N_VERTICES,
-    OVERFLOW,
-    SLIDING,
-    TRIANGLE,
-    VALENCE,
-    State,
-)
+from .state import DELTA, ENERGY, GOAL, KIND, N_TRIANGLES, N_VERTICES, OVERFLOW, TRIANGLE, VALENCE, State
 
 GAIN = 1e-9
 """A flip must lower the energy by more than this."""

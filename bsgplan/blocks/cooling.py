@@ -1,0 +1,123 @@
+"""The annealing in stages that layouts and parts of meshes share: cool, relax everything, steer.
+
+The wanted size is shifted while it runs until there are as many triangles as wanted, and the weight of sizes
+raised while edges stray more than asked.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..arrays import Floats
+from ..sizing.misfit import size_misfit
+from .domain import Domain
+from .placed import PlacedMesh
+from .weights import SIZE_WEIGHT
+
+STAGES = 10
+"""The annealing halts so many times to relax everything, to renew energies and to steer."""
+
+WATCHED = 2
+"""Stages before the weight of sizes is steered: edges stray while it is hot."""
+
+QUENCH = 5
+"""Cold sweeps of an annealing that is stopped early."""
+
+
+@dataclass(frozen=True)
+class Schedule:
+    """How an annealing cools and how it is steered."""
+
+    hot: float
+    """First temperature, in units of the energy of a triangle."""
+    cold: float
+    """Last temperature."""
+    moves: int
+    """Moves a triangle and sweep."""
+    steered: int
+    """Stages after which the count is no longer steered."""
+    gain: float
+    """Share of the log of triangles over wanted by which a stage shifts the log of the wanted edge."""
+    most_shift: float
+    """Largest shift of it."""
+    most_size_weight: float
+    """The most that the weight of sizes is raised to."""
+    first_shift: float = 0.0
+    """The shift to begin with."""
+
+
+@dataclass(frozen=True, eq=False)
+class Cooled:
+    """What an annealing in stages left."""
+
+    mesh: PlacedMesh
+    """The mesh."""
+    offset: float
+    """What is added to the log of the wanted edge."""
+    size_weight: float
+    """Weight of sizes."""
+
+
+def cooled(
+    domain: Domain,
+    mesh: PlacedMesh,
+    log_size: Floats,
+    schedule: Schedule,
+    *,
+    n_sweeps: int,
+    n_wanted: float,
+    rms_wanted: float,
+    bend_weight: float,
+    seed: int,
+    progress: Callable[[str, float], None],
+    is_stopped: Callable[[], bool] = lambda: False,
+) -> Cooled:
+    """Return a mesh annealed in stages, n_sweeps in all; its bends weigh bend_weight.
+
+    log_size is given at the domain's points, in its own unit. n_wanted triangles are steered to, and
+    rms_wanted of log(edge / wanted edge). progress hears of the number of irregular vertices and the share of
+    the work done. is_stopped is asked before every sweep; from a True on the mesh there is gets QUENCH cold
+    sweeps, no more.
+    """
+    from .kernel.exchange import load, unload
+    from .kernel.schedule import cool, falling
+    from .kernel.sweeps import relax_all
+
+    offset, weight = schedule.first_shift, SIZE_WEIGHT
+    n_stages = min(STAGES, n_sweeps)
+    for stage, part in enumerate(np.array_split(falling(schedule.hot, schedule.cold, n_sweeps), n_stages)):
+        state = load(
+            domain, mesh, log_size,
+            seed=seed + stage, size_weight=weight, bend_weight=bend_weight, offset=offset,
+        )  # fmt: skip
+        n_moves = schedule.moves * len(mesh.triangles)
+        cool(state, part, n_moves, is_stopped=is_stopped)
+        if is_stopped():
+            cool(state, [schedule.cold] * QUENCH, n_moves)
+        relax_all(state, 2)
+        mesh = unload(state)
+        if stage < schedule.steered:
+            shift = offset + schedule.gain * np.log(len(mesh.triangles) / n_wanted)
+            offset = float(np.clip(shift, -schedule.most_shift, schedule.most_shift))
+            if stage >= WATCHED:
+                stray = size_rms(domain, mesh, log_size) / rms_wanted
+                weight *= float(np.clip(stray, 0.7, 1.5))
+                weight = float(np.clip(weight, SIZE_WEIGHT, schedule.most_size_weight))
+        progress(f"{np.count_nonzero(mesh.is_irregular)} irregular vertices", (stage + 1) / n_stages)
+        if is_stopped():
+            break
+    return Cooled(mesh, offset, weight)
+
+
+def size_rms(domain: Domain, mesh: PlacedMesh, log_size: Floats) -> float:
+    """Return the rms of log(edge / wanted edge) over the edges of a mesh."""
+    from .kernel.walk import locate
+
+    triangle, shares = locate(domain.points, domain.triangles, mesh.points, mesh.hints)
+    own = (shares * log_size[domain.triangles[triangle, :3]]).sum(axis=1)
+    ends = mesh.topology.edges
+    length = np.linalg.norm(mesh.points[ends[:, 1]] - mesh.points[ends[:, 0]], axis=1)
+    return size_misfit(length, ends, own)

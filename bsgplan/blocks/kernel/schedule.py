@@ -1,0 +1,47 @@
+"""What every use of the kernels does with a state, one sweep after the other: cool it, polish it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+import numpy as np
+
+from ...arrays import Floats
+from .anneal import anneal
+from .state import POWER, TEMPERATURE, State
+from .sweeps import relax_all, renew
+
+POWERS = (1.0, 2.0, 4.0, 8.0)
+"""Exponents of 1/q in the polish, one after the other: the higher, the more the worst triangle counts."""
+
+
+def falling(hot: float, cold: float, n: int) -> Floats:
+    """Return n temperatures from hot to cold, each the same share of the one before.
+
+    >>> falling(0.4, 0.1, 3).round(3).tolist()
+    [0.4, 0.2, 0.1]
+    """
+    return np.asarray(hot * (cold / hot) ** np.linspace(0.0, 1.0, n))
+
+
+def cool(
+    state: State,
+    temperatures: Iterable[float],
+    n_moves: int,
+    *,
+    is_stopped: Callable[[], bool] = lambda: False,
+) -> None:
+    """Make n_moves moves at each temperature, until is_stopped gives True."""
+    for temperature in temperatures:
+        if is_stopped():
+            break
+        state.scalar[TEMPERATURE] = temperature
+        anneal(state, n_moves)
+
+
+def polish(state: State, n_sweeps: int) -> None:
+    """Relax every vertex n_sweeps times at each of POWERS, the topology as it is."""
+    for power in POWERS:
+        state.scalar[POWER] = power
+        renew(state)
+        relax_all(state, n_sweeps)
