@@ -12,6 +12,19 @@ from .errors import OutputError
 
 
 @contextlib.contextmanager
+def naming(target: str | os.PathLike[str]) -> Iterator[None]:
+    """Turn an OSError of the block into an OutputError that names the target."""
+    try:
+        yield
+    except OutputError:
+        raise
+    except OSError as error:
+        raise OutputError(
+            f"{os.fspath(target)}: cannot be written ({error.strerror or error}); check the folder"
+        ) from None
+
+
+@contextlib.contextmanager
 def replacing(target: str | os.PathLike[str]) -> Iterator[Path]:
     """Give the path of an empty file beside the target, with its suffix; rename it when the block ends.
 
@@ -21,7 +34,7 @@ def replacing(target: str | os.PathLike[str]) -> Iterator[Path]:
     path = Path(os.path.realpath(target))
     if path.exists() and not path.is_file():
         raise OutputError(f"{os.fspath(target)}: is no regular file; give the name of one")
-    try:
+    with naming(path):
         handle, name = tempfile.mkstemp(prefix=f".{path.name}.", suffix=path.suffix, dir=path.parent)
         os.close(handle)
         temporary = Path(name)
@@ -35,9 +48,3 @@ def replacing(target: str | os.PathLike[str]) -> Iterator[Path]:
             with contextlib.suppress(OSError):
                 temporary.unlink()
             raise
-    except OutputError:
-        raise
-    except OSError as error:
-        raise OutputError(
-            f"{path}: cannot be written ({error.strerror or error}); check the folder"
-        ) from None

@@ -14,11 +14,11 @@ from .blocks.advice import advice
 from .blocks.domain import domain_of
 from .blocks.lay_out import EFFORT, SIZE_TOLERANCE, lay_out
 from .io import MeshFile
-from .laid_out import Features, find_features, lay_out_file
+from .laid_out import Features, find_features, lay_out_with
 from .laid_out.specks import without_specks
 from .layout_result import LayoutResult
 from .mesh import Mesh
-from .pipeline import check_triangles_only, plan_blocks, size_of
+from .pipeline import check_triangles_only, plan_sizes, size_of
 from .planning import check_block_size
 from .sizing import SizeField, size_field
 
@@ -49,17 +49,17 @@ def lay_out_mesh(
     check_triangles_only(mesh_file)
     progress("measuring sizes", 0.0)
     whole, side = mesh_file, isqrt(tris_per_block)
-    mesh_file, field = without_specks(whole, size_of(whole, size, size_file), side=side)
-    warn_if_pointless(
-        field, find_features(mesh_file, field, side=side, keep=keep), side, gradient_limit=gradient_limit
-    )
+    whole_field = size_of(whole, size, size_file)
+    mesh_file, field = without_specks(whole, whole_field, side=side)
+    features = find_features(mesh_file, field, side=side, keep=keep)
+    warn_if_pointless(field, features, side, gradient_limit=gradient_limit)
     compile_kernels()
     begin = time.process_time()
-    laid_out = lay_out_file(
+    laid_out = lay_out_with(
+        features,
         mesh_file,
         field,
         side=side,
-        keep=keep,
         effort=effort,
         size_tolerance=size_tolerance,
         gradient_limit=gradient_limit,
@@ -70,7 +70,7 @@ def lay_out_mesh(
     )
     seconds = time.process_time() - begin
     progress("estimating", 1.0)
-    planned = plan_blocks(whole, tris_per_block=tris_per_block, size=size, size_file=size_file)
+    planned = plan_sizes(whole, whole_field, tris_per_block=tris_per_block)
     return LayoutResult(laid_out, planned.plan, n_ranks, seconds, is_stopped())
 
 

@@ -23,8 +23,8 @@ from .blocks.domain import domain_of
 from .blocks.target import target_of
 from .errors import InvalidMesh, MeshReadError
 from .io import MeshFile
+from .io.part import part_of
 from .io.size_file import sizes_from
-from .mesh import clean
 from .planning import Plan, check_block_size, estimate
 from .planning.inverse import within
 from .planning.totals import GRADIENT_LIMIT
@@ -59,12 +59,41 @@ def plan_blocks(
     Raises what its steps raise; see `estimate`, `find_regions` and `within`. Raises InvalidMesh for quads.
     """
     check_triangles_only(mesh_file)
-    sizes = tuple(int(n) for n in np.atleast_1d(tris_per_block))
-    for n in sizes:
-        check_block_size(n)
+    for n in np.atleast_1d(tris_per_block):
+        check_block_size(int(n))
     cut = mesh_file if region is None else cut_out(mesh_file, region)
     progress("measuring sizes")
-    field = size_of(cut, size, size_file)
+    return plan_sizes(
+        cut,
+        size_of(cut, size, size_file),
+        tris_per_block=tris_per_block,
+        n_blocks=n_blocks,
+        is_drawn=region is not None,
+        objective=objective,
+        persistence=persistence,
+        plateau=plateau,
+        gradient_limit=gradient_limit,
+        progress=progress,
+    )
+
+
+def plan_sizes(
+    mesh_file: MeshFile,
+    field: SizeField,
+    *,
+    tris_per_block: int | Sequence[int] = 16,
+    n_blocks: int | None = None,
+    is_drawn: bool = False,
+    objective: str = "balanced",
+    persistence: float = PERSISTENCE,
+    plateau: float = PLATEAU,
+    gradient_limit: float = GRADIENT_LIMIT,
+    progress: Callable[[str], None] = lambda _: None,
+) -> PlannedMesh:
+    """Return a mesh file with its plans where its size field is known; see `plan_blocks`.
+
+    is_drawn says that the file is what a user drew: each connected piece is one region then.
+    """
 
     def drawn(n: int) -> Regions:
         label = connected(field.mesh, np.zeros(field.mesh.n_triangles, dtype=np.int64))
@@ -73,7 +102,7 @@ def plan_blocks(
 
     def plan_at(n: int) -> Plan:
         progress(f"planning with {n} triangles per block")
-        if region is not None:
+        if is_drawn:
             regions = drawn(n)
         else:
             regions = find_regions(field, tris_per_block=n, persistence=persistence, plateau=plateau)
@@ -82,12 +111,12 @@ def plan_blocks(
             tris_per_block=n,
             objective=objective,
             gradient_limit=gradient_limit,
-            boundary_limited=None if region is not None else boundary_limited_blocks(field, n),
+            boundary_limited=None if is_drawn else boundary_limited_blocks(field, n),
         )
 
     if n_blocks is not None:
-        return PlannedMesh(cut, (within(plan_at, field.expected_triangles, n_blocks),))
-    return PlannedMesh(cut, tuple(plan_at(n) for n in sizes))
+        return PlannedMesh(mesh_file, (within(plan_at, field.expected_triangles, n_blocks),))
+    return PlannedMesh(mesh_file, tuple(plan_at(int(n)) for n in np.atleast_1d(tris_per_block)))
 
 
 def check_triangles_only(mesh_file: MeshFile) -> None:
@@ -138,20 +167,7 @@ def cut_out(mesh_file: MeshFile, region: BaseGeometry) -> MeshFile:
 
     The polygon is in the coordinates of the file, degrees where the mesh was projected from degrees.
     """
-    inside = triangles_in(mesh_file, region)
-    cleaned = clean(mesh_file.mesh.points, mesh_file.mesh.triangles[inside])
-    kept = cleaned.kept_points
-    return replace(
-        mesh_file,
-        mesh=cleaned.mesh,
-        quads=np.empty((0, 4), dtype=np.int64),
-        quad_points=np.empty((0, 2)),
-        point_data={name: values[kept] for name, values in mesh_file.point_data.items()},
-        cell_data={name: values[inside] for name, values in mesh_file.cell_data.items()},
-        boundaries=(),
-        kept_points=mesh_file.kept_points[kept],
-        degrees=mesh_file.degrees[kept] if len(mesh_file.degrees) else mesh_file.degrees,
-    )
+    return replace(part_of(mesh_file, triangles_in(mesh_file, region))[0], boundaries=())
 
 
 def triangles_in(mesh_file: MeshFile, region: BaseGeometry) -> Bools:

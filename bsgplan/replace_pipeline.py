@@ -12,7 +12,7 @@ from shapely.geometry.base import BaseGeometry
 from .arrays import Bools, Ints
 from .io import MeshFile
 from .io.whole import REGION_ARRAYS
-from .mesh import Mesh
+from .mesh.edges import edge_numbers
 from .pipeline import size_of, triangles_in
 from .regions.labels import connected
 from .regions.segmentation import segment
@@ -77,7 +77,8 @@ def fixed_edges(mesh_file: MeshFile) -> Bools:
         if values is not None and values.ndim == 1 and np.array_equal(values, np.rint(values)):
             result |= values[pair[:, 0]] != values[pair[:, 1]]
     for boundary in mesh_file.boundaries:
-        result[_edges(mesh_file.mesh, boundary.segments)] = True
+        edge = edge_numbers(mesh_file.mesh, boundary.segments)
+        result[edge[edge >= 0]] = True
     return np.asarray(result & is_inside)
 
 
@@ -120,12 +121,3 @@ def regrafted(mesh_file: MeshFile, graft: Graft) -> MeshFile:
         kept_points=number,
         is_renumbered=True,
     )
-
-
-def _edges(mesh: Mesh, segments: Ints) -> Ints:
-    """Return the edges of the mesh that segments, (n, 2), are; those that are none are left out."""
-    ends = np.sort(segments, axis=1)
-    key = ends[:, 0] * mesh.n_points + ends[:, 1]
-    keys = mesh.topology.edges[:, 0] * mesh.n_points + mesh.topology.edges[:, 1]
-    place = np.minimum(np.searchsorted(keys, key), len(keys) - 1)
-    return place[keys[place] == key]

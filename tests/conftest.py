@@ -8,6 +8,8 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
+from bsgplan.io import read
+
 settings.register_profile(
     "house",
     deadline=None,
@@ -32,3 +34,18 @@ def shared() -> Path:
 def meshes(shared: Path) -> Path:
     """The real meshes and MEASURED.tsv."""
     return shared / "meshes"
+
+
+@pytest.fixture
+def reading(tmp_path):
+    """A function that takes a file name and gives one that writes a text or bytes there and reads it."""
+
+    def at(name):
+        def read_content(content):
+            path = tmp_path / name
+            path.write_bytes(content if isinstance(content, bytes) else content.encode())
+            return read(path)
+
+        return read_content
+
+    return at

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import sys
-from math import isfinite, log
+from math import log
 from pathlib import Path
 from typing import Annotated, Any
 
 from cyclopts import Parameter
 
 from ..errors import InvalidOption
+from .checks import check_above
 
 
 def estimate(
@@ -153,8 +154,7 @@ def check_options(objective: str, persistence: float, plateau: float, gradient_l
         ("--plateau", plateau, 0.0, "0.05"),
         ("--gradient-limit", gradient_limit, 0.0, "0.6"),
     ):
-        if not (isfinite(value) and value > least):
-            raise InvalidOption(f"{name} {value:g} is not above {least:g}; give for example {example}")
+        check_above(name, value, least, example)
 
 
 def check_suffixes(figure: Path | None, vtk: Path | None, vtk_patterns: Path | None) -> None:

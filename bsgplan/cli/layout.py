@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import sys
-from math import isfinite
 from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
 
-from ..errors import InvalidOption
+from .checks import check_above, check_least
 
 
 def layout(
@@ -147,11 +146,9 @@ def check_options(
         ("--seed", seed, 0, "7"),
         ("--ranks", 1 if ranks is None else ranks, 1, "64"),
     ):
-        if value < least:
-            raise InvalidOption(f"{name} {value} is under {least}; give for example {example}")
+        check_least(name, value, least, example)
     for name, number, bound, example in (
         ("--size-tolerance", size_tolerance, 1.0, "1.2"),
         ("--gradient-limit", 1.0 if gradient_limit is None else gradient_limit, 0.0, "0.6"),
     ):
-        if not (isfinite(number) and number > bound):
-            raise InvalidOption(f"{name} {number:g} is not above {bound:g}; give for example {example}")
+        check_above(name, number, bound, example)

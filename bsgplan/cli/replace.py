@@ -10,6 +10,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from ..errors import InvalidOption
+from .checks import check_least
 
 
 def replace(
@@ -106,8 +107,7 @@ def replace(
 def check_options(min_quality: float | None, tolerance: float, effort: int, seed: int) -> None:
     """Raise InvalidOption for a value that is wrong whatever the mesh."""
     for name, value, least, example in (("--effort", effort, 1, "30"), ("--seed", seed, 0, "7")):
-        if value < least:
-            raise InvalidOption(f"{name} {value} is under {least}; give for example {example}")
+        check_least(name, value, least, example)
     if not (isfinite(tolerance) and tolerance >= 0):
         raise InvalidOption(f"--tolerance {tolerance:g} is under 0; give for example 0.1")
     if min_quality is not None and not 0 <= min_quality <= 1:

@@ -14,6 +14,7 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from ..arrays import Ints
+from ..mesh.edges import edge_keys
 from .boundary import Boundary
 
 UNMARKED = "unmarked"
@@ -67,7 +68,7 @@ def rim(triangles: Ints, quads: Ints, n_points: int) -> Ints:
     """
     halves = [np.stack([c, np.roll(c, -1, axis=1)], axis=2).reshape(-1, 2) for c in (triangles, quads)]
     edges = np.concatenate(halves)
-    _, first, count = np.unique(_keys(edges, n_points), return_index=True, return_counts=True)
+    _, first, count = np.unique(edge_keys(edges, n_points), return_index=True, return_counts=True)
     return edges[np.sort(first[count == 1])]
 
 
@@ -89,16 +90,11 @@ def _labels(edges: Ints, boundaries: Sequence[Boundary], n_points: int) -> Ints:
     edge, first = np.unique(common.row[order], return_index=True)
     label = np.full(len(edges), -1, dtype=np.int64)
     label[edge] = common.col[order][first]
-    keys = _keys(edges, n_points)
+    keys = edge_keys(edges, n_points)
     for k, boundary in enumerate(boundaries):
         if boundary.edges is not None:
-            label[np.isin(keys, _keys(boundary.edges, n_points))] = k
+            label[np.isin(keys, edge_keys(boundary.edges, n_points))] = k
     return label
-
-
-def _keys(edges: Ints, n_points: int) -> Ints:
-    """Return a number for each edge, (n_edges,), the same in both directions."""
-    return edges.min(axis=1) * n_points + edges.max(axis=1)
 
 
 def _word(boundary: Boundary) -> str:

@@ -32,28 +32,10 @@ from ..errors import MeshReadError
 from .file import RawMesh
 from .fort14_boundaries import read_boundaries
 from .number_table import number_table, shown
+from .point_numbers import NodeNumbers, whole
 
 NODE_COLUMNS = ("id", "x", "y", "depth")
 ELEMENT_COLUMNS = ("id", "number of nodes", "node 1", "node 2", "node 3", "node 4")
-MAX_ID = 2**53
-"""Largest whole number that passes exactly through a float, as the tables are read."""
-
-
-class NodeNumbers:
-    """The ids of a file's nodes, and the way from an id to an index."""
-
-    def __init__(self, ids: Ints) -> None:
-        self.ids = ids
-        self.is_counting = bool((ids == np.arange(1, len(ids) + 1)).all())
-        self.order = np.arange(len(ids)) if self.is_counting else np.argsort(ids, kind="stable")
-
-    def index(self, named: Ints) -> Ints:
-        """Return the index of each id, -1 where no node has it."""
-        if self.is_counting:
-            return np.where((named >= 1) & (named <= len(self.ids)), named - 1, -1)
-        place = np.minimum(np.searchsorted(self.ids, named, sorter=self.order), len(self.ids) - 1)
-        found = self.order[place]
-        return np.where(self.ids[found] == named, found, -1)
 
 
 def read_fort14(path: Path) -> RawMesh:
@@ -107,13 +89,10 @@ def _header(lines: Sequence[bytes]) -> tuple[int, int]:
 def _nodes(lines: Sequence[bytes], n_nodes: int) -> tuple[NodeNumbers, Floats, Floats]:
     line_numbers = range(3, 3 + n_nodes)
     table = number_table(lines, line_numbers, NODE_COLUMNS, "a node")
-    ids = _whole(table[:, 0], line_numbers, "node id")
+    ids = whole(table[:, 0], np.asarray(line_numbers), "node id")
     numbers = NodeNumbers(ids)
-    in_order = ids[numbers.order]
-    is_repeated = in_order[1:] == in_order[:-1]
-    if is_repeated.any():
-        again = int(numbers.order[1:][is_repeated].min())
-        before = int(np.flatnonzero(ids == ids[again])[0])
+    if (repeated := numbers.repeated()) is not None:
+        again, before = repeated
         raise MeshReadError(
             f"line {3 + again}: node id {ids[again]} stands on line {3 + before} already; "
             f"repair it, or the count of {n_nodes} nodes on line 2"
@@ -143,7 +122,7 @@ def _elements(lines: Sequence[bytes], first: int, numbers: NodeNumbers, n_nodes:
 
 
 def _corners(named: Floats, line_numbers: Ints, numbers: NodeNumbers) -> Ints:
-    ids = np.column_stack([_whole(column, line_numbers.tolist(), "node") for column in named.T])
+    ids = np.column_stack([whole(column, line_numbers, "node") for column in named.T])
     index = numbers.index(ids)
     if (index < 0).any():
         row, column = np.argwhere(index < 0)[0]
@@ -153,13 +132,3 @@ def _corners(named: Floats, line_numbers: Ints, numbers: NodeNumbers) -> Ints:
             "repair the element or the node block"
         )
     return index
-
-
-def _whole(values: Floats, line_numbers: Sequence[int], what: str) -> Ints:
-    is_bad = (values != np.rint(values)) | (np.abs(values) > MAX_ID)
-    if is_bad.any():
-        where = int(np.flatnonzero(is_bad)[0])
-        raise MeshReadError(
-            f"line {line_numbers[where]}: {what} {values[where]:g} is no whole number; repair the line"
-        )
-    return values.astype(np.int64)

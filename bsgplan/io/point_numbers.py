@@ -6,17 +6,42 @@ import numpy as np
 
 from ..arrays import Floats, Ints
 from ..errors import MeshReadError
-from .fort14 import MAX_ID, NodeNumbers
+
+MAX_ID = 2**53
+"""Largest whole number that passes exactly through a float, as the tables are read."""
+
+
+class NodeNumbers:
+    """The ids of a file's nodes, and the way from an id to an index."""
+
+    def __init__(self, ids: Ints) -> None:
+        self.ids = ids
+        self.is_counting = bool((ids == np.arange(1, len(ids) + 1)).all())
+        self.order = np.arange(len(ids)) if self.is_counting else np.argsort(ids, kind="stable")
+
+    def repeated(self) -> tuple[int, int] | None:
+        """Return where the first id that stands a second time does, and where it stood; None if none does."""
+        in_order = self.ids[self.order]
+        is_repeated = in_order[1:] == in_order[:-1]
+        if not is_repeated.any():
+            return None
+        again = int(self.order[1:][is_repeated].min())
+        return again, int(np.flatnonzero(self.ids == self.ids[again])[0])
+
+    def index(self, named: Ints) -> Ints:
+        """Return the index of each id, -1 where no node has it."""
+        if self.is_counting:
+            return np.where((named >= 1) & (named <= len(self.ids)), named - 1, -1)
+        place = np.minimum(np.searchsorted(self.ids, named, sorter=self.order), len(self.ids) - 1)
+        found = self.order[place]
+        return np.where(self.ids[found] == named, found, -1)
 
 
 def point_numbers(ids: Ints, line_numbers: Ints) -> NodeNumbers:
     """Return the numbers of the points, (n_points,); raise MeshReadError where one stands twice."""
     numbers = NodeNumbers(ids)
-    in_order = ids[numbers.order]
-    is_repeated = in_order[1:] == in_order[:-1]
-    if is_repeated.any():
-        again = int(numbers.order[1:][is_repeated].min())
-        before = int(np.flatnonzero(ids == ids[again])[0])
+    if (repeated := numbers.repeated()) is not None:
+        again, before = repeated
         raise MeshReadError(
             f"line {line_numbers[again]}: point {ids[again]} stands on line {line_numbers[before]} already; "
             "give each point a number of its own"

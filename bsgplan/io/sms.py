@@ -28,9 +28,8 @@ from ..errors import MeshReadError
 from .boundary import Boundary
 from .chunks import Chunk, chunks
 from .file import RawMesh
-from .fort14 import NodeNumbers
 from .number_table import shown
-from .point_numbers import corner_indices, point_numbers, whole
+from .point_numbers import NodeNumbers, corner_indices, point_numbers, whole
 
 CORNERS = {
     b"E3T": (1, 2, 3), b"E6T": (1, 3, 5),

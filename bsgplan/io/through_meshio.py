@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import contextlib
 import importlib
-import io
 import types
-import warnings
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
@@ -17,6 +14,7 @@ from ..arrays import Floats, Ints
 from ..errors import BsgplanError, MeshReadError
 from .boundary import Boundary
 from .file import RawMesh
+from .hush import hushed
 
 CORNERS = (("triangle", 3), ("quad", 4), ("VTK_LAGRANGE_TRIANGLE", 3), ("VTK_LAGRANGE_QUADRILATERAL", 4))
 """Cell types, by how their name begins, that are taken by their first corners: higher orders too."""
@@ -30,12 +28,7 @@ PARTIAL_DATA = "data cover a part of the points or cells only; those arrays were
 
 def read_through_meshio(path: Path, file_format: str) -> RawMesh:
     """Return what meshio's reader of that format finds in a file."""
-    with (
-        warnings.catch_warnings(),
-        contextlib.redirect_stdout(io.StringIO()),
-        contextlib.redirect_stderr(io.StringIO()),
-    ):
-        warnings.simplefilter("ignore")
+    with hushed():
         try:
             found, notes = _read_gmsh(path) if file_format == "gmsh" else (_read(path, file_format), ())
             return _converted(found, notes)

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import contextlib
 import importlib
-import io
 import os
-import warnings
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +14,7 @@ from ..atomic import replacing
 from ..errors import BsgplanError, OutputError
 from .boundary import labels
 from .file import MeshFile
+from .hush import hushed
 from .through_meshio import reason
 from .whole import cell_regions, warn_of_losses, whole_mesh
 
@@ -48,12 +46,10 @@ def write_through_meshio(mesh_file: MeshFile, path: str | os.PathLike[str], file
             "write .vtu, or split them with --split-quads"
         )
     mesh = _mesh(mesh_file, path, file_format)
-    with replacing(path) as temporary, warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with replacing(path) as temporary, hushed():
         try:
             module = importlib.import_module(f"meshio.{file_format}")
-            with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
-                module.write(str(temporary), mesh, **OPTIONS.get(file_format, {}))
+            module.write(str(temporary), mesh, **OPTIONS.get(file_format, {}))
         except BsgplanError:
             raise
         except ModuleNotFoundError as error:

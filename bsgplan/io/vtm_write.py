@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from ..arrays import Floats, Ints
-from ..atomic import replacing
+from ..atomic import naming, replacing
 from ..errors import OutputError
 from .file import MeshFile
 from .vtk_cells import write_cells
@@ -59,7 +59,7 @@ def _folder(target: Path) -> Iterator[Path]:
     """Give an empty folder beside the target that takes its place when the block ends, or is removed."""
     if target.exists() and (not target.is_dir() or any(p.suffix != ".vtu" for p in target.iterdir())):
         raise OutputError(f"{target}: stands where the pieces go and holds other things; give another name")
-    try:
+    with naming(target):
         made = Path(tempfile.mkdtemp(prefix=f".{target.name}.", dir=target.parent))
         try:
             yield made
@@ -68,12 +68,6 @@ def _folder(target: Path) -> Iterator[Path]:
             made.replace(target)
         finally:
             shutil.rmtree(made, ignore_errors=True)
-    except OutputError:
-        raise
-    except OSError as error:
-        raise OutputError(
-            f"{target}: cannot be written ({error.strerror or error}); check the folder"
-        ) from None
 
 
 def _write(mesh_file: MeshFile, path: Path, cells: Ints) -> None:

@@ -3,7 +3,7 @@
 from .export import FORMATS, export
 from .features import Features, find_features
 from .laid_out import LaidOut
-from .paired import lay_out_file
+from .paired import lay_out_file, lay_out_with
 from .saved import arrays_of, load_layout
 
 __all__ = [
@@ -14,5 +14,6 @@ __all__ = [
     "export",
     "find_features",
     "lay_out_file",
+    "lay_out_with",
     "load_layout",
 ]

@@ -17,7 +17,8 @@ from ..blocks.domain import Domain
 from ..blocks.placed import PlacedMesh
 from ..io import Boundary
 from ..mesh import Mesh
-from .tracks import Track, Tracks, edge_numbers
+from ..mesh.edges import edge_numbers
+from .tracks import Track, Tracks
 
 WHOLE = 1e-6
 """A vertex so near to a node, in steps from node to node, stands on it: far over the roundings."""

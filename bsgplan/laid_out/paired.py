@@ -10,7 +10,7 @@ import numpy as np
 from ..blocks import lay_out
 from ..io import MeshFile
 from ..sizing import SizeField
-from .features import find_features
+from .features import Features, find_features
 from .laid_out import LaidOut
 
 ROUNDS = 12
@@ -26,6 +26,13 @@ def lay_out_file(
     what `lay_out` and `find_features` raise.
     """
     features = find_features(mesh_file, size, side=side, keep=keep)
+    return lay_out_with(features, mesh_file, size, side=side, **options)
+
+
+def lay_out_with(
+    features: Features, mesh_file: MeshFile, size: SizeField, *, side: int, **options: Any
+) -> LaidOut:
+    """Return the layout of a mesh file whose features are known; see `lay_out_file`."""
     kept = features.kept
     for _ in range(ROUNDS):
         grid = lay_out(size, tris_per_block=side**2, interfaces=features.interfaces, kept=kept, **options)

@@ -7,13 +7,12 @@ fits, so they are left out of a layout, and that is said.
 from __future__ import annotations
 
 import logging
-from dataclasses import replace
 
 import numpy as np
 
-from ..arrays import Floats, sums_by
+from ..arrays import sums_by
 from ..io import MeshFile
-from ..mesh import clean
+from ..io.part import part_of
 from ..sizing import SizeField
 
 log = logging.getLogger("bsgplan")
@@ -37,20 +36,5 @@ def without_specks(mesh_file: MeshFile, size: SizeField, *, side: int) -> tuple[
         mesh_file.path, np.count_nonzero(is_speck), np.count_nonzero(~inside),
         float(mesh.areas[~inside].sum() / mesh.area),
     )  # fmt: skip
-    cleaned = clean(mesh.points, mesh.triangles[inside])
-    kept = cleaned.kept_points
-    new_index = np.full(mesh.n_points, -1, dtype=np.int64)
-    new_index[kept] = np.arange(len(kept))
-
-    def rows(data: dict[str, Floats], own: np.ndarray) -> dict[str, Floats]:
-        return {name: values[own] for name, values in data.items()}
-
-    cut = replace(
-        mesh_file,
-        mesh=cleaned.mesh,
-        point_data=rows(mesh_file.point_data, kept),
-        cell_data=rows(mesh_file.cell_data, inside),
-        boundaries=tuple(boundary.renumbered(new_index) for boundary in mesh_file.boundaries),
-        kept_points=mesh_file.kept_points[kept],
-    )
-    return cut, SizeField(cleaned.mesh, size.h[kept], size.source)
+    cut, kept = part_of(mesh_file, inside)
+    return cut, SizeField(cut.mesh, size.h[kept], size.source)

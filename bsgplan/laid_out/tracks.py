@@ -13,6 +13,7 @@ import numpy as np
 from ..arrays import Bools, Floats, Ints
 from ..io import Boundary
 from ..mesh import Mesh
+from ..mesh.edges import edge_numbers
 
 ISLANDS = (1, 11, 21)
 """IBTYPEs of ADCIRC whose last node is joined to the first."""
@@ -88,15 +89,6 @@ def find_tracks(mesh: Mesh, boundaries: Sequence[Boundary]) -> Tracks:
     )
 
 
-def edge_numbers(mesh: Mesh, ends: Ints) -> Ints:
-    """Return the edge of `mesh.topology` between two points each, (n,), either way; -1 for none."""
-    keys = _keys(mesh.topology.edges, mesh.n_points)
-    order = np.argsort(keys)
-    wanted = _keys(ends, mesh.n_points)
-    at = np.minimum(np.searchsorted(keys[order], wanted), len(keys) - 1)
-    return np.asarray(np.where(keys[order][at] == wanted, order[at], -1))
-
-
 def changes(mesh: Mesh, is_line: Bools, tracks: Tracks) -> Ints:
     """Return the points where tracks begin or end on the marked edges, (k,), sorted.
 
@@ -123,7 +115,3 @@ def _owners(mesh: Mesh, boundaries: Sequence[Boundary]) -> Ints:
         is_in[boundaries[k].nodes] = True
         owner[is_in[mesh.topology.edges].all(axis=1) & mesh.topology.is_boundary_edge] = k
     return owner
-
-
-def _keys(edges: Ints, n_points: int) -> Ints:
-    return np.asarray(edges.min(axis=1) * n_points + edges.max(axis=1))

@@ -14,6 +14,7 @@ import tempfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+from ..atomic import naming
 from ..errors import OutputError
 from ..report.table import markdown
 from .report import Report, section_table, slips_table, summary_table
@@ -26,8 +27,8 @@ Every table and figure of Zint and Grosso, *On the Link between Mesh Size Adapta
 our number beside the paper's. A number in brackets is not in the paper: it is what independent reckoning
 gives, where the paper prints none or slips. Ours agrees where it rounds to the printed digits; `!` marks one
 that does not. Irregular vertices are red where positive, blue where negative. Figure 8, a region replaced
-inside a mesh, is not here. `bsgplan paper --out report/` makes this page; its exit code is 1 where a number
-differs.
+inside a mesh, is of a mesh of ours. `bsgplan paper --out report/` makes this page; its exit code is 1 where a
+number differs.
 """
 
 
@@ -83,7 +84,7 @@ def _staged(target: Path) -> Iterator[Path]:
     """Give an empty folder beside the target; when the block ends well, rename its files into the target."""
     check_folder(target)
     there = target.resolve()
-    try:
+    with naming(target):
         stage = Path(tempfile.mkdtemp(prefix=f".{there.name}.", dir=there.parent))
         try:
             yield stage
@@ -97,9 +98,3 @@ def _staged(target: Path) -> Iterator[Path]:
                 path.replace(there / path.name)
         finally:
             shutil.rmtree(stage, ignore_errors=True)
-    except OutputError:
-        raise
-    except OSError as error:
-        raise OutputError(
-            f"{target}: cannot be written ({error.strerror or error}); check the folder"
-        ) from None

@@ -38,15 +38,9 @@ SMALL = """a square  ! with a comment
 
 
 @pytest.fixture
-def small(tmp_path):
+def small(reading):
     """A function that writes a text as fort.14 and reads it."""
-
-    def read_text(text):
-        path = tmp_path / "fort.14"
-        path.write_bytes(text if isinstance(text, bytes) else text.encode())
-        return read(path)
-
-    return read_text
+    return reading("fort.14")
 
 
 def test_a_small_file_by_hand(small):

@@ -32,15 +32,9 @@ $ENDELM
 
 
 @pytest.fixture
-def small(tmp_path):
+def small(reading):
     """A function that writes a text as .msh and reads it."""
-
-    def read_text(text):
-        path = tmp_path / "mesh.msh"
-        path.write_text(text)
-        return read(path)
-
-    return read_text
+    return reading("mesh.msh")
 
 
 def test_a_small_file_by_hand(small):

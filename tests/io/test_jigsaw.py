@@ -35,15 +35,9 @@ QUAD4=0
 
 
 @pytest.fixture
-def plane(tmp_path):
+def plane(reading):
     """A function that writes a text as .msh and reads it."""
-
-    def read_text(text):
-        path = tmp_path / "mesh.msh"
-        path.write_text(text)
-        return read(path)
-
-    return read_text
+    return reading("mesh.msh")
 
 
 def test_a_plane_mesh_by_hand(plane):

@@ -61,15 +61,9 @@ trailing words
 
 
 @pytest.fixture
-def small(tmp_path):
+def small(reading):
     """A function that writes a text as MFEM mesh and reads it."""
-
-    def read_text(text):
-        path = tmp_path / "small.mesh"
-        path.write_text(text)
-        return read(path)
-
-    return read_text
+    return reading("small.mesh")
 
 
 def test_a_small_file_by_hand(small):

@@ -19,15 +19,9 @@ from bsgplan.io.selafin_write import boundary_numbers, write_selafin
 
 
 @pytest.fixture
-def small(tmp_path):
+def small(reading):
     """A function that writes bytes as .slf and reads them."""
-
-    def read_bytes(content):
-        path = tmp_path / "small.slf"
-        path.write_bytes(content)
-        return read(path)
-
-    return read_bytes
+    return reading("small.slf")
 
 
 @pytest.mark.parametrize("double", [False, True])

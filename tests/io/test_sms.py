@@ -31,15 +31,9 @@ MAT 2 "sand"
 
 
 @pytest.fixture
-def small(tmp_path):
+def small(reading):
     """A function that writes a text as .2dm and reads it."""
-
-    def read_text(text):
-        path = tmp_path / "mesh.2dm"
-        path.write_text(text)
-        return read(path)
-
-    return read_text
+    return reading("mesh.2dm")
 
 
 def test_a_small_file_by_hand(small):

@@ -67,15 +67,9 @@ FFD_NBOX= 1
 
 
 @pytest.fixture
-def small(tmp_path):
+def small(reading):
     """A function that writes a text as SU2 and reads it."""
-
-    def read_text(text):
-        path = tmp_path / "mesh.su2"
-        path.write_text(text)
-        return read(path)
-
-    return read_text
+    return reading("mesh.su2")
 
 
 def test_a_small_file_by_hand(small):

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import logging
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from bsgplan.io import read_lonlat
 from bsgplan.io.file import RawMesh, assemble
 from bsgplan.laid_out.specks import without_specks
 from bsgplan.sizing import size_field
@@ -37,3 +39,21 @@ def test_nothing_is_left_out_of_a_mesh_without_specks() -> None:
     points = np.array([[0.0, 0], [1, 0], [0, 1]])
     mesh_file = assemble("one.off", "off", RawMesh(points, np.array([[0, 1, 2]]), np.empty((0, 4), int)))
     assert without_specks(mesh_file, size_field(mesh_file.mesh), side=4)[0] is mesh_file
+
+
+def test_degrees_of_a_projected_file_follow_its_points(tmp_path: Path) -> None:
+    """Without specks the degrees kept the rows of the whole file: more than there were points."""
+    path = tmp_path / "coast.14"
+    square = [(i, j) for j in range(5) for i in range(5)]
+    cells = [(5 * j + i, 5 * j + i + 1, 5 * j + i + 6, 5 * j + i + 5) for j in range(4) for i in range(4)]
+    triangles = [(25, 26, 27), *(t for a, b, c, d in cells for t in ((a, b, c), (a, c, d)))]
+    points = [(10 + x / 10, 20 + y / 10) for x, y in square] + [(12, 20), (12.1, 20), (12, 20.1)]
+    rows = [f"{k + 1} {x} {y} 1" for k, (x, y) in enumerate(points)]
+    rows += [f"{k + 1} 3 {a + 1} {b + 1} {c + 1}" for k, (a, b, c) in enumerate(triangles)]
+    path.write_text(f"coast\n{len(triangles)} {len(points)}\n" + "\n".join(rows) + "\n0\n0\n0\n0\n")
+    mesh_file = read_lonlat(path)
+    cut, _ = without_specks(mesh_file, size_field(mesh_file.mesh), side=2)
+    assert cut.mesh.n_triangles == 32
+    assert cut.degrees.shape == cut.mesh.points.shape
+    assert cut.file_points[-1].tolist() == [10.4, 20.4]
+    assert cut.kept_points.tolist() == list(range(25))

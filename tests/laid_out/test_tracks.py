@@ -8,8 +8,9 @@ import pytest
 from bsgplan.errors import InvalidOption
 from bsgplan.io import Boundary
 from bsgplan.laid_out import find_features
-from bsgplan.laid_out.tracks import changes, edge_numbers, find_tracks
+from bsgplan.laid_out.tracks import changes, find_tracks
 from bsgplan.mesh import Mesh
+from bsgplan.mesh.edges import edge_numbers
 from bsgplan.sizing import size_field
 
 from .conftest import as_file, lattice
