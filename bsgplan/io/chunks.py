@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ..arrays import Bools, Floats, Ints
 from ..errors import MeshReadError
-from .number_table import number_table, table_of_text
+from .number_table import FORTRAN_EXPONENT, first_bad_line, table_of_text, word_starts
 
 CHUNK_BYTES = 2**20
 """Bytes read at once: the arrays made of a chunk stay near a processor's cache."""
@@ -87,12 +87,36 @@ class Chunk:
             characters[words[:, None] + np.arange(blank)] = ord(" ")
         return Chunk(characters.tobytes(), self.line_numbers[is_wanted])
 
-    def table(self, columns: Sequence[str], what: str) -> Floats:
-        """Return the first numbers of each line, (n_lines, n_columns), as `number_table` does."""
+    def part(self, first: int, stop: int) -> Chunk:
+        """Return the chunk of lines first .. stop - 1."""
+        return Chunk(self.text[self.starts[first] : self.starts[stop]], self.line_numbers[first:stop])
+
+    def table(self, columns: Sequence[str], what: str) -> Floats | Ints:
+        """Return the first numbers of each line, (n_lines, n_columns), as integers where all are whole.
+
+        Text after the last wanted column is a comment, Fortran's D exponents are understood. Raises
+        MeshReadError at the first line that does not begin with that many finite numbers.
+        """
+        if not self.n_lines:
+            return np.empty((0, len(columns)))
         table = table_of_text(self.text, self.n_lines, len(columns))
+        if table is None:
+            cut = self._cut(len(columns)).translate(FORTRAN_EXPONENT)
+            table = table_of_text(cut, self.n_lines, len(columns))
         if table is None or not np.isfinite(table).all():
-            return number_table(self.lines, self.line_numbers.tolist(), columns, what)
+            raise first_bad_line(self.lines, self.line_numbers.tolist(), columns, what)
         return table
+
+    def _cut(self, n_words: int) -> bytes:
+        """Return the text with only the first words of each line, blanks in the place of others."""
+        words = word_starts(self.characters)
+        first, after = np.searchsorted(words, self.starts[:-1]), np.searchsorted(words, self.starts[1:])
+        is_long = after - first > n_words
+        depth = np.zeros(len(self.text) + 1, dtype=np.int8)
+        depth[words[first[is_long] + n_words]] = 1
+        depth[self.starts[1:][is_long] - 1] -= 1
+        is_over = np.cumsum(depth[:-1], dtype=np.int8).astype(bool)
+        return np.where(is_over, np.uint8(ord(" ")), self.characters).tobytes()
 
 
 def chunks(path: Path) -> Iterator[Chunk]:
@@ -114,3 +138,38 @@ def chunks(path: Path) -> Iterator[Chunk]:
             first += n_lines
     if rest.strip():
         yield Chunk(rest + b"\n", np.array([first]))
+
+
+class Lines:
+    """The lines of a text file from the first to the last, handed out in runs of as many as asked for."""
+
+    def __init__(self, path: Path) -> None:
+        self._chunks = chunks(path)
+        self._rest = NOTHING
+
+    def take(self, n_lines: int | None = None) -> Iterator[Chunk]:
+        """Give the next n_lines in chunks, all that are left by default; fewer where the file ends."""
+        left = n_lines
+        while left is None or left > 0:
+            chunk = self._rest if self._rest.n_lines else next(self._chunks, NOTHING)
+            if not chunk.n_lines:
+                return
+            stop = chunk.n_lines if left is None else min(left, chunk.n_lines)
+            self._rest = chunk.part(stop, chunk.n_lines)
+            left = None if left is None else left - stop
+            yield chunk.part(0, stop)
+
+
+NOTHING = Chunk(b"", np.empty(0, dtype=np.int64))
+
+
+def n_lines_of(path: Path) -> int:
+    """Return the number of lines of a file up to the last that is not blank."""
+    n_lines = n_ended = 0
+    with path.open("rb") as stream:
+        while piece := stream.read(CHUNK_BYTES):
+            said = len(piece.rstrip())
+            if said:
+                n_lines = n_ended + piece.count(b"\n", 0, said) + 1
+            n_ended += piece.count(b"\n")
+    return n_lines

@@ -29,9 +29,10 @@ import numpy as np
 
 from ..arrays import Floats, Ints
 from ..errors import MeshReadError
+from .chunks import Lines, n_lines_of
 from .file import RawMesh
 from .fort14_boundaries import read_boundaries
-from .number_table import number_table, shown
+from .number_table import shown
 from .point_numbers import NodeNumbers, whole
 
 NODE_COLUMNS = ("id", "x", "y", "depth")
@@ -40,31 +41,26 @@ ELEMENT_COLUMNS = ("id", "number of nodes", "node 1", "node 2", "node 3", "node 
 
 def read_fort14(path: Path) -> RawMesh:
     """Return the nodes, elements, depth and boundary lists of an ADCIRC or SCHISM mesh."""
-    content = path.read_bytes()
-    if b"\0" in content:
-        raise MeshReadError("binary data, not a fort.14 text; give the text mesh")
-    lines = content.split(b"\n")
-    while lines and not lines[-1].strip():
-        lines.pop()
-    n_elements, n_nodes = _header(lines)
-    first_element = 2 + n_nodes
-    first_boundary = first_element + n_elements
-    numbers, points, depth = _nodes(lines[2:first_element], n_nodes)
-    triangles, quads = _elements(lines[first_element:first_boundary], first_element + 1, numbers, n_nodes)
-    boundaries = read_boundaries(lines[first_boundary:], first_boundary + 1, numbers.index)
+    lines, n_lines = Lines(path), n_lines_of(path)
+    head = [line for chunk in lines.take(2) for line in chunk.lines]
+    n_elements, n_nodes = _header(head, n_lines)
+    numbers, points, depth = _nodes(lines, n_nodes)
+    triangles, quads = _elements(lines, n_elements, numbers)
+    first = 3 + n_nodes + n_elements
+    rest = [line for chunk in lines.take(n_lines + 1 - first) for line in chunk.lines]
     return RawMesh(
         points=points,
         triangles=triangles,
         quads=quads,
         point_data={"depth": depth},
-        boundaries=boundaries,
+        boundaries=read_boundaries(rest, first, numbers.index),
         ignored={"quad": len(quads)} if len(quads) else {},
-        title=lines[0].decode("utf-8", "replace").strip(),
+        title=head[0].decode("utf-8", "replace").strip(),
         is_counting=numbers.is_counting,
     )
 
 
-def _header(lines: Sequence[bytes]) -> tuple[int, int]:
+def _header(lines: Sequence[bytes], n_lines: int) -> tuple[int, int]:
     if len(lines) < 2:
         raise MeshReadError("line 1 is the last; a fort.14 has the title there and both counts on line 2")
     words = lines[1].split()[:2]
@@ -78,18 +74,23 @@ def _header(lines: Sequence[bytes]) -> tuple[int, int]:
         raise MeshReadError(
             f"line 2: {n_elements} elements and {n_nodes} nodes are no mesh; repair the counts"
         )
-    if n_elements + n_nodes > len(lines) - 2:
+    if n_elements + n_nodes > n_lines - 2:
         raise MeshReadError(
             f"line 2: {n_elements} elements and {n_nodes} nodes need as many lines, "
-            f"only {len(lines) - 2} follow; repair the counts or fetch the whole file"
+            f"only {n_lines - 2} follow; repair the counts or fetch the whole file"
         )
     return n_elements, n_nodes
 
 
-def _nodes(lines: Sequence[bytes], n_nodes: int) -> tuple[NodeNumbers, Floats, Floats]:
-    line_numbers = range(3, 3 + n_nodes)
-    table = number_table(lines, line_numbers, NODE_COLUMNS, "a node")
-    ids = whole(table[:, 0], np.asarray(line_numbers), "node id")
+def _nodes(lines: Lines, n_nodes: int) -> tuple[NodeNumbers, Floats, Floats]:
+    ids = np.empty(n_nodes, dtype=np.int64)
+    points, depth = np.empty((n_nodes, 2)), np.empty(n_nodes)
+    first = 0
+    for chunk in lines.take(n_nodes):
+        table = chunk.table(NODE_COLUMNS, "a node")
+        rows = slice(first, first := first + chunk.n_lines)
+        ids[rows] = whole(table[:, 0], chunk.line_numbers, "node id")
+        points[rows], depth[rows] = table[:, 1:3], table[:, 3]
     numbers = NodeNumbers(ids)
     if (repeated := numbers.repeated()) is not None:
         again, before = repeated
@@ -97,32 +98,33 @@ def _nodes(lines: Sequence[bytes], n_nodes: int) -> tuple[NodeNumbers, Floats, F
             f"line {3 + again}: node id {ids[again]} stands on line {3 + before} already; "
             f"repair it, or the count of {n_nodes} nodes on line 2"
         )
-    return numbers, np.ascontiguousarray(table[:, 1:3]), table[:, 3].copy()
+    return numbers, points, depth
 
 
-def _elements(lines: Sequence[bytes], first: int, numbers: NodeNumbers, n_nodes: int) -> tuple[Ints, Ints]:
-    line_numbers = np.arange(first, first + len(lines))
-    table = number_table(lines, line_numbers.tolist(), ELEMENT_COLUMNS[:5], "an element")
-    n_corners = table[:, 1]
-    is_bad = (n_corners != 3) & (n_corners != 4)
-    if is_bad.any():
-        where = int(np.flatnonzero(is_bad)[0])
-        raise MeshReadError(
-            f"line {line_numbers[where]}: an element has 3 or 4 nodes, got {shown(lines[where])}; "
-            f"repair it, or the count of {n_nodes} nodes on line 2"
-        )
-    triangles = _corners(table[n_corners == 3, 2:], line_numbers[n_corners == 3], numbers)
-    is_quad = n_corners == 4
-    if not is_quad.any():
-        return triangles, np.empty((0, 4), dtype=np.int64)
-    quad_numbers = line_numbers[is_quad]
-    quad_lines = [lines[where] for where in np.flatnonzero(is_quad).tolist()]
-    quad_table = number_table(quad_lines, quad_numbers.tolist(), ELEMENT_COLUMNS, "an element of 4 nodes")
-    return triangles, _corners(quad_table[:, 2:], quad_numbers, numbers)
+def _elements(lines: Lines, n_elements: int, numbers: NodeNumbers) -> tuple[Ints, Ints]:
+    triangles, n_triangles = np.empty((n_elements, 3), dtype=np.int64), 0
+    quads = [np.empty((0, 4), dtype=np.int64)]
+    for chunk in lines.take(n_elements):
+        table = chunk.table(ELEMENT_COLUMNS[:5], "an element")
+        n_corners = table[:, 1]
+        is_triangle, is_quad = n_corners == 3, n_corners == 4
+        if not (is_triangle | is_quad).all():
+            where = int(np.flatnonzero(~(is_triangle | is_quad))[0])
+            raise MeshReadError(
+                f"line {chunk.line_numbers[where]}: an element has 3 or 4 nodes, got "
+                f"{shown(chunk.lines[where])}; repair it, or the count of {len(numbers.ids)} nodes on line 2"
+            )
+        rows = slice(n_triangles, n_triangles := n_triangles + int(np.count_nonzero(is_triangle)))
+        triangles[rows] = _corners(table[is_triangle, 2:], chunk.line_numbers[is_triangle], numbers)
+        if is_quad.any():
+            of_quads = chunk.select(is_quad)
+            named = of_quads.table(ELEMENT_COLUMNS, "an element of 4 nodes")[:, 2:]
+            quads.append(_corners(named, of_quads.line_numbers, numbers))
+    return triangles[:n_triangles].copy() if n_triangles < n_elements else triangles, np.concatenate(quads)
 
 
-def _corners(named: Floats, line_numbers: Ints, numbers: NodeNumbers) -> Ints:
-    ids = np.column_stack([whole(column, line_numbers, "node") for column in named.T])
+def _corners(named: Floats | Ints, line_numbers: Ints, numbers: NodeNumbers) -> Ints:
+    ids = whole(named, line_numbers, "node")
     index = numbers.index(ids)
     if (index < 0).any():
         row, column = np.argwhere(index < 0)[0]

@@ -6,9 +6,7 @@ import numpy as np
 
 from ..arrays import Floats, Ints
 from ..errors import MeshReadError
-
-MAX_ID = 2**53
-"""Largest whole number that passes exactly through a float, as the tables are read."""
+from .number_table import LARGEST_WHOLE
 
 
 class NodeNumbers:
@@ -17,10 +15,12 @@ class NodeNumbers:
     def __init__(self, ids: Ints) -> None:
         self.ids = ids
         self.is_counting = bool((ids == np.arange(1, len(ids) + 1)).all())
-        self.order = np.arange(len(ids)) if self.is_counting else np.argsort(ids, kind="stable")
+        self.order = np.empty(0, np.int64) if self.is_counting else np.argsort(ids, kind="stable")
 
     def repeated(self) -> tuple[int, int] | None:
         """Return where the first id that stands a second time does, and where it stood; None if none does."""
+        if self.is_counting:
+            return None
         in_order = self.ids[self.order]
         is_repeated = in_order[1:] == in_order[:-1]
         if not is_repeated.any():
@@ -63,9 +63,11 @@ def corner_indices(named: Ints, numbers: NodeNumbers, line_numbers: Ints) -> Int
     return index
 
 
-def whole(values: Floats, line_numbers: Ints, what: str) -> Ints:
+def whole(values: Floats | Ints, line_numbers: Ints, what: str) -> Ints:
     """Return numbers, (n, ...), as integers; raise MeshReadError with the line of one that is none."""
-    is_bad = (values != np.rint(values)) | (np.abs(values) > MAX_ID)
+    if values.dtype.kind == "i":
+        return np.asarray(values, dtype=np.int64)
+    is_bad = (values != np.rint(values)) | (np.abs(values) > LARGEST_WHOLE)
     if is_bad.any():
         where = tuple(np.argwhere(is_bad)[0])
         raise MeshReadError(

@@ -89,7 +89,7 @@ def read_2dm(path: Path) -> RawMesh:
 
 def _take(found: _Found, kind: bytes, chunk: Chunk) -> None:
     if kind == b"ND":
-        found.points.append(chunk.table(("id", "x", "y", "z"), "a point (ND)"))
+        found.points.append(chunk.table(("id", "x", "y", "z"), "a point (ND)").astype(np.float64))
         found.point_lines.append(chunk.line_numbers)
     elif kind in CORNERS:
         _take_elements(found, kind, chunk)
@@ -112,7 +112,7 @@ def _take_elements(found: _Found, kind: bytes, chunk: Chunk) -> None:
     what = f"an element ({kind.decode()})"
     try:
         table = chunk.table((*columns, "material"), what)
-        material = table[:, n + 1]
+        material = table[:, n + 1].astype(np.float64)
     except MeshReadError:
         table = chunk.table(columns, what)
         material = np.full(chunk.n_lines, float(NO_MATERIAL))

@@ -7,7 +7,6 @@ allocated from the count that a header claims: rows are kept as they arrive.
 from __future__ import annotations
 
 import re
-import warnings
 from collections.abc import Sequence
 from pathlib import Path
 from types import TracebackType
@@ -17,20 +16,18 @@ import numpy as np
 
 from ..arrays import Floats, Ints
 from ..errors import MeshReadError
-from .number_table import shown
+from .number_table import LARGEST_WHOLE, numbers_of, shown, word_starts
 
 BUFFER = 1 << 20
 """Bytes read at a time; no line may be longer."""
-MAX_WHOLE = 2**53
-"""Largest whole number that passes exactly through a float, as the rows are read."""
 LETTER = re.compile(rb"(?m)^[ \t\r]*[A-Za-z]")
 
 
 class Rows(NamedTuple):
     """Rows of numbers, not all of the same length, one after the other."""
 
-    values: Floats
-    """All numbers, (n_values,)."""
+    values: Floats | Ints
+    """All numbers, (n_values,), as integers where all are whole."""
     starts: Ints
     """Where each row begins in `values`, and the end, (n_rows + 1,)."""
     line_numbers: Ints
@@ -43,19 +40,14 @@ class Rows(NamedTuple):
 
     def columns(self, first: int, stop: int, what: str) -> Floats:
         """Return values first .. stop - 1 of every row, (n_rows, stop - first)."""
-        is_short = self.lengths < stop
-        if is_short.any():
-            where = int(np.flatnonzero(is_short)[0])
-            raise MeshReadError(
-                f"line {self.line_numbers[where]}: {what} needs {stop} numbers, got {self.lengths[where]}; "
-                "repair the line or the header's counts"
-            )
-        return self.values[self.starts[:-1, None] + np.arange(first, stop)]
+        return np.ascontiguousarray(self._table(first, stop, what), dtype=np.float64)
 
     def integers(self, first: int, stop: int, what: str) -> Ints:
         """Return values first .. stop - 1 of every row as whole numbers, (n_rows, stop - first)."""
-        table = self.columns(first, stop, what)
-        is_bad = (table != np.rint(table)) | (np.abs(table) > MAX_WHOLE)
+        table = self._table(first, stop, what)
+        if table.dtype.kind == "i":
+            return np.ascontiguousarray(table, dtype=np.int64)
+        is_bad = (table != np.rint(table)) | (np.abs(table) > LARGEST_WHOLE)
         if is_bad.any():
             row, column = np.argwhere(is_bad)[0]
             raise MeshReadError(
@@ -63,6 +55,19 @@ class Rows(NamedTuple):
                 "repair the line or the header's counts"
             )
         return table.astype(np.int64)
+
+    def _table(self, first: int, stop: int, what: str) -> Floats | Ints:
+        is_short = self.lengths < stop
+        if is_short.any():
+            where = int(np.flatnonzero(is_short)[0])
+            raise MeshReadError(
+                f"line {self.line_numbers[where]}: {what} needs {stop} numbers, got {self.lengths[where]}; "
+                "repair the line or the header's counts"
+            )
+        n_rows = len(self.line_numbers)
+        if n_rows and (self.lengths == self.lengths[0]).all():
+            return self.values.reshape(n_rows, -1)[:, first:stop]
+        return self.values[self.starts[:-1, None] + np.arange(first, stop)]
 
     def of(self, is_wanted: np.ndarray) -> Rows:
         """Return the rows where is_wanted is true, (n_rows,)."""
@@ -109,7 +114,7 @@ class TextRecords:
 
     def rows(self, n_rows: int, what: str) -> Rows:
         """Return the next n_rows rows of numbers; `what` names one of them in a message."""
-        parts, n_found = [NO_ROWS], 0
+        parts, n_found = list[Rows](), 0
         while n_found < n_rows:
             first = self.line_number + 1
             block = self._block(n_rows - n_found)
@@ -124,7 +129,7 @@ class TextRecords:
 
     def numbers(self, what: str) -> Floats:
         """Return all numbers up to the next line that begins with a letter, (n,), however they are broken."""
-        parts = [np.empty(0)]
+        parts: list[Floats | Ints] = [np.empty(0)]
         while (head := self.peek()) and not head[:1].isalpha():
             first = self.line_number + 1
             block = self._block(BUFFER)
@@ -181,33 +186,23 @@ def _rows(block: bytes, first: int, comment: bytes, what: str) -> Rows:
     if comment in block:
         block = re.sub(re.escape(comment) + rb"[^\n]*", b"", block)
     text = np.frombuffer(block, dtype=np.uint8)
-    is_word = text > ord(" ")
-    word_starts = np.flatnonzero(is_word & ~np.concatenate([[False], is_word[:-1]]))
-    if not len(word_starts):
+    words = word_starts(text)
+    if not len(words):
         return NO_ROWS
-    values = _numbers(block)
-    if values is None or len(values) != len(word_starts) or not np.isfinite(values).all():
+    values = numbers_of(block)
+    if values is None or len(values) != len(words) or not np.isfinite(values).all():
         raise _first_bad_word(block, first, what)
     ends = np.append(np.flatnonzero(text == ord("\n")), len(text))
-    lengths = np.diff(np.searchsorted(word_starts, ends), prepend=0)
+    lengths = np.diff(np.searchsorted(words, ends), prepend=0)
     is_row = lengths > 0
     starts = np.concatenate([[0], np.cumsum(lengths[is_row])])
     return Rows(values, starts, first + np.flatnonzero(is_row))
 
 
-def _numbers(text: bytes) -> Floats | None:
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        try:
-            return np.fromstring(text, dtype=np.float64, sep=" ")  # type: ignore[arg-type, unused-ignore]
-        except (DeprecationWarning, ValueError):
-            return None
-
-
 def _first_bad_word(block: bytes, first: int, what: str) -> MeshReadError:
     for number, line in enumerate(block.split(b"\n"), first):
         for word in line.split():
-            values = _numbers(word)
+            values = numbers_of(word)
             if values is None or len(values) != 1 or not np.isfinite(values[0]):
                 return MeshReadError(
                     f"line {number}: {what} has {shown(word)}, not a finite number; "
@@ -217,6 +212,7 @@ def _first_bad_word(block: bytes, first: int, what: str) -> MeshReadError:
 
 
 def _joined(parts: list[Rows]) -> Rows:
+    parts = [part for part in parts if len(part.values)] or [NO_ROWS]
     offsets = np.cumsum([0] + [len(part.values) for part in parts])
     starts = [part.starts[:-1] + offset for part, offset in zip(parts, offsets, strict=False)]
     return Rows(
