@@ -94,7 +94,7 @@ def layout(
     with bar() as progress, interruptible() as is_stopped:
         mesh_file = open_mesh(file, is_lonlat=lonlat, split_quads=split_quads)
         if not is_cached(anneal):
-            print("compiling, once, about a minute", file=sys.stderr)  # noqa: T201
+            print("compiling, once, less than a minute", file=sys.stderr)  # noqa: T201
         result = lay_out_mesh(
             mesh_file,
             tris_per_block=tris_per_block,

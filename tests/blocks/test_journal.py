@@ -5,18 +5,19 @@ from __future__ import annotations
 import domains
 import numpy as np
 import pytest
+from probes import probe
 
 from bsgplan.arrays import Floats
 from bsgplan.blocks.corners import find_corners
 from bsgplan.blocks.domain import Domain, domain_of
+from bsgplan.blocks.kernel import collapse as collapses
+from bsgplan.blocks.kernel import energy as energies
+from bsgplan.blocks.kernel import flip as flips
+from bsgplan.blocks.kernel import journal
+from bsgplan.blocks.kernel import relax as relaxations
+from bsgplan.blocks.kernel import split as splits
 from bsgplan.blocks.kernel.anneal import anneal
-from bsgplan.blocks.kernel.collapse import collapse, kept_end
-from bsgplan.blocks.kernel.energy import triangle_energy, valence_energy
 from bsgplan.blocks.kernel.exchange import load, unload
-from bsgplan.blocks.kernel.flip import can_flip, flip
-from bsgplan.blocks.kernel.journal import begin, commit, rollback
-from bsgplan.blocks.kernel.relax import relax_vertex
-from bsgplan.blocks.kernel.split import can_split, split
 from bsgplan.blocks.kernel.state import (
     ARC,
     DELTA,
@@ -36,6 +37,13 @@ from bsgplan.blocks.kinds import CORNER
 from bsgplan.blocks.placed import place
 
 N_MOVES = 250
+
+begin, commit, rollback = map(probe, (journal.begin, journal.commit, journal.rollback))
+can_flip, flip = probe(flips.can_flip), probe(flips.flip)
+can_split, split = probe(splits.can_split), probe(splits.split)
+kept_end, collapse = probe(collapses.kept_end), probe(collapses.collapse)
+relax_vertex = probe(relaxations.relax_vertex)
+triangle_energy, valence_energy = probe(energies.triangle_energy), probe(energies.valence_energy)
 
 
 @pytest.mark.parametrize(

@@ -10,14 +10,12 @@ import pytest
 import shapely
 from hypothesis import given
 from hypothesis import strategies as st
+from probes import probe
 
 from bsgplan.blocks.curve_places import CurvePlaces, side_arcs
 from bsgplan.blocks.domain import domain_of
-from bsgplan.blocks.kernel import bend
-from bsgplan.blocks.kernel.energy import triangle_energy
+from bsgplan.blocks.kernel import bend, energy, relax, size_at
 from bsgplan.blocks.kernel.exchange import load, unload
-from bsgplan.blocks.kernel.relax import _derivatives
-from bsgplan.blocks.kernel.size_at import place_on_curve
 from bsgplan.blocks.kernel.state import BEND, POWER, SIZE, State
 from bsgplan.blocks.kernel.sweeps import relax_all, renew
 from bsgplan.blocks.kernel.walk import locate
@@ -28,6 +26,9 @@ from bsgplan.blocks.smooth import qualities, smooth
 HOLED = domain_of(
     domains.polygon_mesh(shapely.box(0, 0, 5, 4).difference(shapely.Point(2, 2).buffer(1)), 0.5, 5)
 )
+derivatives, triangle_energy = probe(relax._derivatives), probe(energy.triangle_energy)
+place_on_curve, arcs_of_side = probe(size_at.place_on_curve), probe(bend.side_arcs)
+
 NOWHERE, STRAIGHT = np.zeros(HOLED.n_points, bool), np.zeros(HOLED.n_points)
 
 
@@ -42,7 +43,7 @@ def test_derivatives_are_those_of_differences(power: float) -> None:
         v = int(state.triangle[t, random.integers(3)])
         at = state.point[v].copy()
         state.point[v] += random.uniform(-0.1, 0.1, 2)
-        exact = np.array(_derivatives(state, t, v))
+        exact = np.array(derivatives(state, t, v))
         step = 1e-5
         near = _energies(state, t, v, step)
         gradient = [(near[1, 0] - near[-1, 0]) / (2 * step), (near[0, 1] - near[0, -1]) / (2 * step)]
@@ -135,7 +136,7 @@ def test_compiled_places_on_curves_are_those_of_numpy(seed: int) -> None:
         assert places.arc_at(np.array([c]), metric) == pytest.approx([inside], abs=1e-9)
     triangle, side = np.nonzero(mesh.codes >= 0)
     curve, start, end = side_arcs(HOLED, mesh, triangle, side)
-    own = [bend.side_arcs(state, int(t), int(s)) for t, s in zip(triangle, side, strict=True)]
+    own = [arcs_of_side(state, int(t), int(s)) for t, s in zip(triangle, side, strict=True)]
     state_less = np.array(own)
     keep = ~(mesh.triangles[triangle] == v).any(axis=1)  # v has been moved
     assert state_less[keep] == pytest.approx(np.column_stack([curve, start, end])[keep])

@@ -12,7 +12,7 @@ import numpy as np
 from ..kinds import CORNER, NO_CURVE
 from .chance import below, uniform
 from .collapse import collapse, kept_end
-from .compiled import compiled
+from .compiled import compiled, inner, whole
 from .energy import is_upright
 from .fan import corner_of, fan_of, side_to
 from .flip import can_flip, flip, flip_gain
@@ -27,6 +27,7 @@ from .state import (
     KIND,
     N_TRIANGLES,
     N_VERTICES,
+    NEAR,
     OVERFLOW,
     STAMP,
     TEMPERATURE,
@@ -62,6 +63,9 @@ HOPELESS = 1.5
 DRAWS = 60
 """Vertices drawn in search of an irregular one."""
 
+NONE = whole(-1)
+"""No triangle, side or vertex."""
+
 TOUCHED, RING = 0, 1
 """Rows of state.fan that hold the vertices touched and those round them."""
 
@@ -71,58 +75,53 @@ def anneal(state: State, n_moves: int) -> int:
     """Make n_moves moves at the state's temperature; return how many were accepted."""
     n_accepted = 0
     for _ in range(n_moves):
-        n_accepted += _move(state)
+        t = _somewhere(state)
+        if t < 0:
+            continue
+        side = below(state, 3)
+        begin(state)
+        n = _change(state, t, side)
+        if n == 0 or state.counter[OVERFLOW] != 0:
+            rollback(state)
+            continue
+        bound = -state.scalar[TEMPERATURE] * np.log(1.0 - uniform(state))
+        if state.scalar[DELTA_VALENCES] > bound + HOPELESS:
+            rollback(state)
+            continue
+        for i in range(n):
+            relax_vertex(state, state.fan[TOUCHED, i])
+        if state.scalar[DELTA] > bound + MARGIN or state.counter[OVERFLOW] != 0:
+            rollback(state)
+            continue
+        m = _ring(state, n)
+        for i in range(m):
+            relax_vertex(state, state.fan[RING, i])
+        if state.scalar[DELTA] > bound or state.counter[OVERFLOW] != 0 or not _are_upright(state, n):
+            rollback(state)
+            continue
+        commit(state)
+        n_accepted += 1
     return n_accepted
 
 
-@compiled
+@inner
 def is_irregular(state: State, v: int) -> bool:
     """Return True where the valence of a vertex is off its goal, at a corner by more than half an edge."""
     off = abs(state.vertex[v, VALENCE] - state.value[v, GOAL])
     return off > (0.51 if state.vertex[v, KIND] >= CORNER else 0.0)
 
 
-@compiled
-def _move(state: State) -> int:
-    t = _somewhere(state)
-    if t < 0:
-        return 0
-    side = below(state, 3)
-    begin(state)
-    n = _change(state, t, side)
-    if n == 0 or state.counter[OVERFLOW] != 0:
-        rollback(state)
-        return 0
-    bound = -state.scalar[TEMPERATURE] * np.log(1.0 - uniform(state))
-    if state.scalar[DELTA_VALENCES] > bound + HOPELESS:
-        rollback(state)
-        return 0
-    for i in range(n):
-        relax_vertex(state, state.fan[TOUCHED, i])
-    if state.scalar[DELTA] > bound + MARGIN or state.counter[OVERFLOW] != 0:
-        rollback(state)
-        return 0
-    m = _ring(state, n)
-    for i in range(m):
-        relax_vertex(state, state.fan[RING, i])
-    if state.scalar[DELTA] > bound or state.counter[OVERFLOW] != 0 or not _are_upright(state, n):
-        rollback(state)
-        return 0
-    commit(state)
-    return 1
-
-
-@compiled
+@inner
 def _somewhere(state: State) -> int:
     """Return a triangle to begin at, -1 if none was met."""
     if uniform(state) < AT_IRREGULAR:
         for _ in range(DRAWS):
             v = below(state, state.counter[N_VERTICES])
             if state.vertex[v, TRIANGLE] >= 0 and is_irregular(state, v):
-                n, _ = fan_of(state, v, 10)
+                n, _ = fan_of(state, v, NEAR)
                 if n == 0:
                     return -1
-                t = state.fan[10, below(state, n)]
+                t = state.fan[NEAR, below(state, n)]
                 if uniform(state) < BESIDE:
                     beside = state.triangle[t, 3 + below(state, 3)]
                     t = beside if beside >= 0 else t
@@ -134,7 +133,7 @@ def _somewhere(state: State) -> int:
     return -1
 
 
-@compiled
+@inner
 def _change(state: State, t: int, side: int) -> int:
     """Change the topology at an edge; return the number of vertices touched, 0 where it may not be."""
     state.counter[STAMP] += 1
@@ -160,7 +159,7 @@ def _change(state: State, t: int, side: int) -> int:
         n = _touch(state, n, a)
         n = _touch(state, n, b)
         n = _touch(state, n, c)
-        return _mend(state, n, below(state, MOST_MENDS), -1, -1)
+        return _mend(state, n, below(state, MOST_MENDS), NONE, NONE)
     keep = kept_end(state, t, side)
     if keep < 0:
         return 0
@@ -172,10 +171,10 @@ def _change(state: State, t: int, side: int) -> int:
     n = _touch(state, n, a)
     if d >= 0:
         n = _touch(state, n, d)
-    return _mend(state, n, below(state, MOST_MENDS), -1, -1)
+    return _mend(state, n, below(state, MOST_MENDS), NONE, NONE)
 
 
-@compiled
+@inner
 def _touch(state: State, n: int, v: int) -> int:
     """Add a vertex to those touched unless it is there; return their number."""
     if state.mark[v] != state.counter[STAMP] and n < FAN:
@@ -185,7 +184,7 @@ def _touch(state: State, n: int, v: int) -> int:
     return n
 
 
-@compiled
+@inner
 def _touch_pair(state: State, n: int, t: int, other: int) -> int:
     for i in range(3):
         n = _touch(state, n, state.triangle[t, i])
@@ -193,16 +192,16 @@ def _touch_pair(state: State, n: int, t: int, other: int) -> int:
     return n
 
 
-@compiled
+@inner
 def _mend(state: State, n: int, n_flips: int, last_a: int, last_b: int) -> int:
     """Flip the edges round the touched vertices that mend valences most, never the last one back."""
     for _ in range(n_flips):
-        best, best_t, best_side = 0.0, -1, -1
+        best, best_t, best_side = 0.0, NONE, NONE
         for i in range(n):
             v = state.fan[TOUCHED, i]
-            m, _ = fan_of(state, v, 10)
+            m, _ = fan_of(state, v, NEAR)
             for j in range(m):
-                t = state.fan[10, j]
+                t = state.fan[NEAR, j]
                 k = corner_of(state, t, v)
                 for side in (k, (k + 2) % 3):  # the edge opposite v and the one that leaves it
                     if state.triangle[t, 3 + side] < 0 or state.triangle[t, 6 + side] != NO_CURVE:
@@ -221,15 +220,15 @@ def _mend(state: State, n: int, n_flips: int, last_a: int, last_b: int) -> int:
     return n
 
 
-@compiled
+@inner
 def _ring(state: State, n: int) -> int:
     """Gather the vertices joined to those touched into row RING; return how many."""
     m = 0
     for i in range(n):
         v = state.fan[TOUCHED, i]
-        k, _ = fan_of(state, v, 10)
+        k, _ = fan_of(state, v, NEAR)
         for j in range(k):
-            t = state.fan[10, j]
+            t = state.fan[NEAR, j]
             for corner in range(3):
                 w = state.triangle[t, corner]
                 if state.mark[w] != state.counter[STAMP] and m < FAN:
@@ -239,11 +238,11 @@ def _ring(state: State, n: int) -> int:
     return m
 
 
-@compiled
+@inner
 def _are_upright(state: State, n: int) -> bool:
     for i in range(n):
-        k, _ = fan_of(state, state.fan[TOUCHED, i], 10)
+        k, _ = fan_of(state, state.fan[TOUCHED, i], NEAR)
         for j in range(k):
-            if not is_upright(state, state.fan[10, j]):
+            if not is_upright(state, state.fan[NEAR, j]):
                 return False
     return True

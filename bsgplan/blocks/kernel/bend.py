@@ -7,22 +7,17 @@ itself costs by how much.
 
 from __future__ import annotations
 
-import numpy as np
-
 from ..kinds import JUNCTION
-from .compiled import compiled
+from .compiled import inner
 from .shape import inverse_quality
 from .size_at import polyline_place
-from .state import ARC, KIND, State
-
-PARTS = 4
-"""Edges into which the side is cut for the test."""
+from .state import ARC, KIND, PARTS, State
 
 STRAIGHT = 1e-3
 """A curve that leaves its chord by less than this share of it is straight."""
 
 
-@compiled
+@inner
 def side_arcs(state: State, t: int, side: int) -> tuple[int, float, float]:
     """Return the curve of a side and the arc lengths of its two ends, in the order of the triangle.
 
@@ -44,7 +39,7 @@ def side_arcs(state: State, t: int, side: int) -> tuple[int, float, float]:
     return c, start, end
 
 
-@compiled
+@inner
 def bend(state: State, t: int, side: int, wanted: float) -> float:
     """Return the price of a side of triangle t, 0 where its curve is straight.
 
@@ -58,7 +53,7 @@ def bend(state: State, t: int, side: int, wanted: float) -> float:
     vx, vy = state.point[tip, 0] - ax, state.point[tip, 1] - ay
     square = ux * ux + uy * uy
     largest = 0.0
-    moved = np.zeros((PARTS + 1, 2))
+    moved = state.bow
     for i in range(1, PARTS):
         share = i / PARTS
         _, k, part = polyline_place(state, c, start + share * (end - start))

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from .compiled import compiled
+from .compiled import inner
 from .state import State
 
 
-@compiled
+@inner
 def uniform(state: State) -> float:
     """Return a number in [0, 1)."""
     seed = state.seed
@@ -20,7 +20,7 @@ def uniform(state: State) -> float:
     return float(z >> np.uint64(11)) * (1.0 / 9007199254740992.0)
 
 
-@compiled
+@inner
 def below(state: State, n: int) -> int:
     """Return a whole number in 0 .. n - 1."""
     return int(uniform(state) * n)

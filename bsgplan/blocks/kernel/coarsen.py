@@ -9,13 +9,13 @@ from __future__ import annotations
 import numpy as np
 
 from .collapse import collapse, kept_end
-from .compiled import compiled
+from .compiled import compiled, inner
 from .energy import is_upright, twice_area
 from .fan import corner_of, fan_of
 from .journal import begin, commit, rollback
 from .shape import SHAPE
 from .split import can_split, split
-from .state import N_TRIANGLES, OVERFLOW, State, U
+from .state import N_TRIANGLES, NEAR, OVERFLOW, State, U
 from .sweeps import flip_all, relax_all
 
 LONG, SHORT = 1.25, 0.68
@@ -28,7 +28,6 @@ WORST = 0.25
 """A collapse must leave triangles of this mean ratio or better (or of the least one before it)."""
 
 
-@compiled
 def coarsen(state: State, n_rounds: int) -> None:
     """Remesh towards the wanted size."""
     for _ in range(n_rounds):
@@ -39,14 +38,14 @@ def coarsen(state: State, n_rounds: int) -> None:
             break
 
 
-@compiled
+@inner
 def edge_length(state: State, a: int, b: int) -> float:
     """Return the length of an edge in wanted lengths."""
     dx, dy = state.point[b, 0] - state.point[a, 0], state.point[b, 1] - state.point[a, 1]
     return np.sqrt(dx * dx + dy * dy) * 0.5 * (np.exp(-state.value[a, U]) + np.exp(-state.value[b, U]))
 
 
-@compiled
+@inner
 def quality(state: State, t: int) -> float:
     """Return the mean ratio of a triangle, negative where inverted."""
     a, b, c = state.triangle[t, 0], state.triangle[t, 1], state.triangle[t, 2]
@@ -104,20 +103,20 @@ def _collapse_short(state: State) -> int:
     return n_changed
 
 
-@compiled
+@inner
 def _least_quality(state: State, v: int) -> float:
-    n, _ = fan_of(state, v, 10)
+    n, _ = fan_of(state, v, NEAR)
     least = 1.0
     for i in range(n):
-        least = min(least, quality(state, state.fan[10, i]))
+        least = min(least, quality(state, state.fan[NEAR, i]))
     return least
 
 
-@compiled
+@inner
 def _is_sound(state: State, v: int, worst: float, longest: float) -> bool:
-    n, _ = fan_of(state, v, 10)
+    n, _ = fan_of(state, v, NEAR)
     for i in range(n):
-        t = state.fan[10, i]
+        t = state.fan[NEAR, i]
         k = corner_of(state, t, v)
         if not is_upright(state, t) or quality(state, t) < worst:
             return False

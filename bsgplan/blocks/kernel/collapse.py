@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from ..kinds import CORNER, INTERIOR, NO_CURVE, SLIDING
 from .bend import side_arcs
-from .compiled import compiled
+from .compiled import inner
 from .energy import refresh_triangle, set_valence
 from .fan import corner_of, fan_of, n_common, side_to
 from .flip import MOST
-from .journal import give_up, keep_triangle, keep_vertex
+from .journal import TRIANGLE_ROW, VERTEX_ROW, give_up, keep_triangle, keep_vertex
 from .rows import anchor, relink
 from .size_at import goal_on_curve, look_up, place_on_curve
-from .state import DELTA, GOAL, KIND, VALENCE, State
+from .state import DELTA, GOAL, GONE, KIND, VALENCE, State
 
 
-@compiled
+@inner
 def kept_end(state: State, t: int, side: int) -> int:
     """Return the end of the edge that stays: the fixed one, else the one on a curve, else the first.
 
@@ -49,13 +49,13 @@ def kept_end(state: State, t: int, side: int) -> int:
     return keep
 
 
-@compiled
+@inner
 def _may_lose(state: State, v: int) -> bool:
     kind = state.vertex[v, KIND]
     return state.vertex[v, VALENCE] > (4 if kind == INTERIOR else 3 if kind == SLIDING else 2)
 
 
-@compiled
+@inner
 def _sheds(state: State, t: int, side: int) -> bool:
     """Return True where the two other sides can become one: a neighbour is left, curves do not meet."""
     first, second = (side + 1) % 3, (side + 2) % 3
@@ -64,7 +64,7 @@ def _sheds(state: State, t: int, side: int) -> bool:
     return state.triangle[t, 6 + first] == NO_CURVE or state.triangle[t, 6 + second] == NO_CURVE
 
 
-@compiled
+@inner
 def collapse(state: State, t: int, side: int, keep: int) -> bool:
     """Collapse the edge at that side into its end keep, inside a transaction; False where fans overflow.
 
@@ -76,12 +76,12 @@ def collapse(state: State, t: int, side: int, keep: int) -> bool:
     gone = c if keep == b else b
     n, code = row[t, 3 + side], row[t, 6 + side]
     valence = state.vertex[b, VALENCE] + state.vertex[c, VALENCE] - (4 if n >= 0 else 3)
-    n_gone, _ = fan_of(state, gone, 11)
+    n_gone, _ = fan_of(state, gone, GONE)
     if n_gone == 0:
         return False
     _move(state, t, side, keep, gone, code)
     for i in range(n_gone):
-        s = state.fan[11, i]
+        s = state.fan[GONE, i]
         if s != t and s != n:
             keep_triangle(state, s)
             row[s, corner_of(state, s, gone)] = keep
@@ -89,16 +89,16 @@ def collapse(state: State, t: int, side: int, keep: int) -> bool:
     if n >= 0:
         _remove(state, n, side_to(state, n, t), keep)
     keep_vertex(state, gone)
-    give_up(state, 0, gone)
+    give_up(state, VERTEX_ROW, gone)
     set_valence(state, gone, int(state.value[gone, GOAL]))
     set_valence(state, keep, valence)
-    m, _ = fan_of(state, keep, 11)
+    m, _ = fan_of(state, keep, GONE)
     for i in range(m):
-        refresh_triangle(state, state.fan[11, i])
+        refresh_triangle(state, state.fan[GONE, i])
     return m > 0
 
 
-@compiled
+@inner
 def _move(state: State, t: int, side: int, keep: int, gone: int, code: int) -> None:
     kind = state.vertex[keep, KIND]
     if kind == INTERIOR:
@@ -113,7 +113,7 @@ def _move(state: State, t: int, side: int, keep: int, gone: int, code: int) -> N
         state.value[keep, GOAL] = goal_on_curve(state, keep)
 
 
-@compiled
+@inner
 def _remove(state: State, t: int, side: int, keep: int) -> None:
     """Take triangle t out: the triangles beyond its two other sides become neighbours."""
     row = state.triangle
@@ -140,4 +140,4 @@ def _remove(state: State, t: int, side: int, keep: int) -> None:
     state.scalar[DELTA] -= state.energy[t]
     state.energy[t] = 0.0
     row[t, 0] = -1
-    give_up(state, 1, t)
+    give_up(state, TRIANGLE_ROW, t)

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..kinds import CORNER, JUNCTION
 from .bend import bend
-from .compiled import compiled
+from .compiled import inner
 from .journal import keep_triangle, keep_vertex
 from .shape import SHAPE, soft
 from .state import (
@@ -35,7 +35,7 @@ WANTED = 1.5 * np.sqrt(3.0)
 """Twice the wanted area is this over the sum of the corners' w = 1 / h^2."""
 
 
-@compiled
+@inner
 def twice_area(state: State, t: int) -> float:
     """Return twice the signed area of a triangle."""
     a, b, c = state.triangle[t, 0], state.triangle[t, 1], state.triangle[t, 2]
@@ -45,7 +45,7 @@ def twice_area(state: State, t: int) -> float:
     )
 
 
-@compiled
+@inner
 def triangle_energy(state: State, t: int) -> float:
     """Return the energy of a triangle where its corners are now."""
     a, b, c = state.triangle[t, 0], state.triangle[t, 1], state.triangle[t, 2]
@@ -66,7 +66,7 @@ def triangle_energy(state: State, t: int) -> float:
     return energy
 
 
-@compiled
+@inner
 def valence_energy(state: State, v: int) -> float:
     """Return the energy of a vertex's valence; corner and junction pay beyond half an edge only."""
     off = abs(state.vertex[v, VALENCE] - state.value[v, GOAL])
@@ -75,7 +75,7 @@ def valence_energy(state: State, v: int) -> float:
     return state.scalar[VALENCES] * cost_of_valence(off)
 
 
-@compiled
+@inner
 def cost_of_valence(off: float) -> float:
     """Return phi: 0, 1, 2.8, 5.8 at 0, 1, 2, 3 off, linear between and beyond."""
     if off <= 1.0:
@@ -85,7 +85,7 @@ def cost_of_valence(off: float) -> float:
     return 2.8 + 3.0 * (off - 2.0)
 
 
-@compiled
+@inner
 def refresh_triangle(state: State, t: int) -> None:
     """Write the energy of a triangle anew, inside a transaction."""
     energy = triangle_energy(state, t)
@@ -94,7 +94,7 @@ def refresh_triangle(state: State, t: int) -> None:
     state.energy[t] = energy
 
 
-@compiled
+@inner
 def set_valence(state: State, v: int, valence: int) -> None:
     """Set the valence of a vertex and its energy, inside a transaction."""
     keep_vertex(state, v)
@@ -105,7 +105,7 @@ def set_valence(state: State, v: int, valence: int) -> None:
     state.value[v, ENERGY] = energy
 
 
-@compiled
+@inner
 def is_upright(state: State, t: int) -> bool:
     """Return True where a triangle's area is positive: above a millionth of the wanted one."""
     a, b, c = state.triangle[t, 0], state.triangle[t, 1], state.triangle[t, 2]

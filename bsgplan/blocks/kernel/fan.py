@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from .compiled import compiled
-from .state import FAN, TRIANGLE, State
+from .compiled import inner
+from .state import COMMON, FAN, JOINED, SPARE, TRIANGLE, State
 
 
-@compiled
+@inner
 def corner_of(state: State, t: int, v: int) -> int:
     """Return which corner of triangle t vertex v is."""
     if state.triangle[t, 0] == v:
@@ -14,7 +14,7 @@ def corner_of(state: State, t: int, v: int) -> int:
     return 1 if state.triangle[t, 1] == v else 2
 
 
-@compiled
+@inner
 def side_to(state: State, t: int, neighbour: int) -> int:
     """Return the side of triangle t beyond which a neighbour lies."""
     if state.triangle[t, 3] == neighbour:
@@ -22,7 +22,7 @@ def side_to(state: State, t: int, neighbour: int) -> int:
     return 1 if state.triangle[t, 4] == neighbour else 2
 
 
-@compiled
+@inner
 def fan_of(state: State, v: int, row: int) -> tuple[int, bool]:
     """Gather the triangles at v into state.fan[row], counter-clockwise; return how many, and if they close.
 
@@ -56,37 +56,37 @@ def fan_of(state: State, v: int, row: int) -> tuple[int, bool]:
         back += 1
     if back:
         for i in range(back):
-            fan[15, i] = fan[row, n + back - 1 - i]
+            fan[SPARE, i] = fan[row, n + back - 1 - i]
         for i in range(n - 1, -1, -1):
             fan[row, back + i] = fan[row, i]
         for i in range(back):
-            fan[row, i] = fan[15, i]
+            fan[row, i] = fan[SPARE, i]
     return n + back, False
 
 
-@compiled
+@inner
 def are_joined(state: State, a: int, b: int) -> bool:
-    """Return True where an edge joins vertices a and b; row 13 of state.fan is scratch."""
-    n, _ = fan_of(state, a, 13)
+    """Return True where an edge joins vertices a and b."""
+    n, _ = fan_of(state, a, JOINED)
     for i in range(n):
-        t = state.fan[13, i]
+        t = state.fan[JOINED, i]
         if state.triangle[t, 0] == b or state.triangle[t, 1] == b or state.triangle[t, 2] == b:
             return True
     return n == 0
 
 
-@compiled
+@inner
 def n_common(state: State, a: int, b: int) -> int:
     """Return the number of vertices joined to both a and b."""
-    n, is_closed = fan_of(state, a, 14)
+    n, is_closed = fan_of(state, a, COMMON)
     common = 0
     for i in range(n):
-        t = state.fan[14, i]
+        t = state.fan[COMMON, i]
         ahead = state.triangle[t, (corner_of(state, t, a) + 1) % 3]
         if ahead != b and are_joined(state, b, ahead):
             common += 1
     if not is_closed and n:
-        t = state.fan[14, n - 1]
+        t = state.fan[COMMON, n - 1]
         last = state.triangle[t, (corner_of(state, t, a) + 2) % 3]
         if last != b and are_joined(state, b, last):
             common += 1

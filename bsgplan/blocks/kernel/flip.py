@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from ..kinds import CORNER, INTERIOR, JUNCTION, NO_CURVE
-from .compiled import compiled
+from .compiled import inner
 from .energy import cost_of_valence, refresh_triangle, set_valence
 from .fan import are_joined, side_to
-from .rows import anchor, put_triangle, relink
+from .rows import FREE, anchor, put_triangle, relink
 from .state import GOAL, KIND, VALENCE, State
 
 MOST = 11
 """No vertex gets more edges than this."""
 
 
-@compiled
+@inner
 def least_valence(state: State, v: int) -> int:
     """Return the fewest edges that a vertex may have: 4 inside, 3 on a curve, 2 where it is fixed."""
     kind = state.vertex[v, KIND]
@@ -22,7 +22,7 @@ def least_valence(state: State, v: int) -> int:
     return 2 if kind >= CORNER else 3
 
 
-@compiled
+@inner
 def can_flip(state: State, t: int, side: int) -> bool:
     """Return True where the edge has two triangles, lies on no curve and its ends may lose it."""
     other = state.triangle[t, 3 + side]
@@ -40,7 +40,7 @@ def can_flip(state: State, t: int, side: int) -> bool:
     return not are_joined(state, a, d)
 
 
-@compiled
+@inner
 def flip_gain(state: State, t: int, side: int) -> float:
     """Return by how much a flip lowers the costs of the four valences, before weighting."""
     other = state.triangle[t, 3 + side]
@@ -49,7 +49,7 @@ def flip_gain(state: State, t: int, side: int) -> float:
     return _change(state, a, 1) + _change(state, d, 1) + _change(state, b, -1) + _change(state, c, -1)
 
 
-@compiled
+@inner
 def _change(state: State, v: int, by: int) -> float:
     now = abs(state.vertex[v, VALENCE] - state.value[v, GOAL])
     then = abs(state.vertex[v, VALENCE] + by - state.value[v, GOAL])
@@ -58,7 +58,7 @@ def _change(state: State, v: int, by: int) -> float:
     return cost_of_valence(now) - cost_of_valence(then)
 
 
-@compiled
+@inner
 def flip(state: State, t: int, side: int) -> int:
     """Flip the edge at that side, inside a transaction; return the other triangle.
 
@@ -74,8 +74,8 @@ def flip(state: State, t: int, side: int) -> int:
     n_c, n_b = row[n, 3 + (back + 1) % 3], row[n, 3 + (back + 2) % 3]  # opposite c, opposite b
     l_c, l_b = row[n, 6 + (back + 1) % 3], row[n, 6 + (back + 2) % 3]
     # t keeps side ab (opposite c in the old t) and gets bd (opposite c in the old n)
-    put_triangle(state, t, a, b, d, n_c, n, t_c, l_c, -1, k_c)
-    put_triangle(state, n, a, d, c, n_b, t_b, t, l_b, k_b, -1)
+    put_triangle(state, t, a, b, d, n_c, n, t_c, l_c, FREE, k_c)
+    put_triangle(state, n, a, d, c, n_b, t_b, t, l_b, k_b, FREE)
     relink(state, n_c, n, t)
     relink(state, t_b, t, n)
     anchor(state, b, t)

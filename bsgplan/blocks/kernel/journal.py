@@ -7,7 +7,7 @@
 from __future__ import annotations
 
 from ...arrays import Ints
-from .compiled import compiled
+from .compiled import inner, whole
 from .state import (
     DELTA,
     DELTA_VALENCES,
@@ -24,8 +24,11 @@ from .state import (
     State,
 )
 
+VERTEX_ROW, TRIANGLE_ROW = whole(0), whole(1)
+"""What a row is of."""
 
-@compiled
+
+@inner
 def begin(state: State) -> None:
     """Begin a transaction."""
     state.counter[N_LOG] = 0
@@ -36,7 +39,7 @@ def begin(state: State) -> None:
     state.scalar[DELTA_VALENCES] = 0.0
 
 
-@compiled
+@inner
 def keep_vertex(state: State, v: int) -> None:
     """Write the row of a vertex down."""
     k = state.counter[N_LOG]
@@ -52,7 +55,7 @@ def keep_vertex(state: State, v: int) -> None:
     state.counter[N_LOG] = k + 1
 
 
-@compiled
+@inner
 def keep_triangle(state: State, t: int) -> None:
     """Write the row of a triangle down."""
     k = state.counter[N_LOG]
@@ -67,7 +70,7 @@ def keep_triangle(state: State, t: int) -> None:
     state.counter[N_LOG] = k + 1
 
 
-@compiled
+@inner
 def rollback(state: State) -> None:
     """Undo the transaction."""
     for k in range(state.counter[N_LOG] - 1, -1, -1):
@@ -87,7 +90,7 @@ def rollback(state: State) -> None:
     begin(state)
 
 
-@compiled
+@inner
 def commit(state: State) -> None:
     """Make the transaction final: the rows given up become free."""
     for k in range(state.counter[N_FREED]):
@@ -95,7 +98,7 @@ def commit(state: State) -> None:
     begin(state)
 
 
-@compiled
+@inner
 def take_vertex(state: State) -> int:
     """Return a free vertex row, -1 (and overflow) where there is none."""
     counter = state.counter
@@ -109,11 +112,11 @@ def take_vertex(state: State) -> int:
     else:
         counter[OVERFLOW] = 1
         return -1
-    _list(state, state.taken, N_TAKEN, 0, v)
+    _list(state, state.taken, N_TAKEN, VERTEX_ROW, v)
     return v
 
 
-@compiled
+@inner
 def take_triangle(state: State) -> int:
     """Return a free triangle row, -1 (and overflow) where there is none."""
     counter = state.counter
@@ -128,17 +131,17 @@ def take_triangle(state: State) -> int:
     else:
         counter[OVERFLOW] = 1
         return -1
-    _list(state, state.taken, N_TAKEN, 1, t)
+    _list(state, state.taken, N_TAKEN, TRIANGLE_ROW, t)
     return t
 
 
-@compiled
+@inner
 def give_up(state: State, what: int, row: int) -> None:
-    """Note a row (0 vertex, 1 triangle) that becomes free if the transaction is committed."""
+    """Note a row (VERTEX_ROW or TRIANGLE_ROW) that becomes free if the transaction is committed."""
     _list(state, state.freed, N_FREED, what, row)
 
 
-@compiled
+@inner
 def _list(state: State, rows: Ints, counted: int, what: int, row: int) -> None:
     """Put a row on a list of the transaction whose length is counter[counted]."""
     k = state.counter[counted]
@@ -149,7 +152,7 @@ def _list(state: State, rows: Ints, counted: int, what: int, row: int) -> None:
     state.counter[counted] = k + 1
 
 
-@compiled
+@inner
 def _release(state: State, what: int, row: int) -> None:
     counter = state.counter
     if what == 0:

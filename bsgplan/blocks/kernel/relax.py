@@ -9,13 +9,13 @@ from __future__ import annotations
 import numpy as np
 
 from ..kinds import INTERIOR, JUNCTION, SLIDING
-from .compiled import compiled
+from .compiled import inner
 from .energy import WANTED, refresh_triangle, triangle_energy, twice_area
 from .fan import corner_of, fan_of
 from .journal import keep_vertex
 from .shape import SHAPE, SOFT, soft
 from .size_at import look_up, place_on_curve
-from .state import ARC, CURVE, KIND, POWER, QUALITY, SIZE, State, U, W
+from .state import ARC, CURVE, KIND, POWER, QUALITY, SIZE, STAR, State, U, W
 
 LONGEST = 0.35
 """Longest step, in wanted edge lengths."""
@@ -30,7 +30,7 @@ GAIN = 1e-9
 """A step must lower the energy by more than this."""
 
 
-@compiled
+@inner
 def relax_vertex(state: State, v: int) -> None:
     """Move a vertex to lower energy, inside a transaction; fixed vertices stay."""
     kind = state.vertex[v, KIND]
@@ -40,43 +40,43 @@ def relax_vertex(state: State, v: int) -> None:
         _relax_sliding(state, v)
 
 
-@compiled
+@inner
 def _star(state: State, n: int) -> tuple[float, int]:
-    """Return the energy of the fan in row 12 and how many of its triangles are inverted."""
+    """Return the energy of the fan in row STAR and how many of its triangles are inverted."""
     total, n_inverted = 0.0, 0
     for i in range(n):
-        t = state.fan[12, i]
+        t = state.fan[STAR, i]
         total += triangle_energy(state, t)
         if twice_area(state, t) <= 0.0:
             n_inverted += 1
     return total, n_inverted
 
 
-@compiled
+@inner
 def _accept(state: State, n: int) -> None:
     for i in range(n):
-        refresh_triangle(state, state.fan[12, i])
+        refresh_triangle(state, state.fan[STAR, i])
 
 
-@compiled
+@inner
 def _before(state: State, n: int) -> tuple[float, int]:
     total, n_inverted = 0.0, 0
     for i in range(n):
-        t = state.fan[12, i]
+        t = state.fan[STAR, i]
         total += state.energy[t]
         if twice_area(state, t) <= 0.0:
             n_inverted += 1
     return total, n_inverted
 
 
-@compiled
+@inner
 def _relax_free(state: State, v: int) -> None:
-    n, _ = fan_of(state, v, 12)
+    n, _ = fan_of(state, v, STAR)
     if n == 0:
         return
     gx, gy, hxx, hxy, hyy = 0.0, 0.0, 0.0, 0.0, 0.0
     for i in range(n):
-        dx, dy, dxx, dxy, dyy = _derivatives(state, state.fan[12, i], v)
+        dx, dy, dxx, dxy, dyy = _derivatives(state, state.fan[STAR, i], v)
         gx += dx
         gy += dy
         hxx += dxx
@@ -110,7 +110,7 @@ def _relax_free(state: State, v: int) -> None:
     state.value[v, U], state.value[v, W], state.vertex[v, 4] = u, w, hint
 
 
-@compiled
+@inner
 def _newton(gx: float, gy: float, hxx: float, hxy: float, hyy: float, area: float) -> tuple[float, float]:
     """Return the step -H^-1 g, H shifted until both its eigenvalues are positive."""
     mean, half = 0.5 * (hxx + hyy), 0.5 * (hxx - hyy)
@@ -123,7 +123,7 @@ def _newton(gx: float, gy: float, hxx: float, hxy: float, hyy: float, area: floa
     return -(hyy * gx - hxy * gy) / determinant, -(hxx * gy - hxy * gx) / determinant
 
 
-@compiled
+@inner
 def _derivatives(state: State, t: int, v: int) -> tuple[float, float, float, float, float]:
     """Return gradient and Hessian of a triangle's quality and size energy in the place of vertex v.
 
@@ -169,11 +169,11 @@ def _derivatives(state: State, t: int, v: int) -> tuple[float, float, float, flo
     )
 
 
-@compiled
+@inner
 def room_on_curve(state: State, v: int, n: int) -> tuple[float, float]:
     """Return how far a sliding vertex is from its neighbours on the curve, behind and ahead.
 
-    The fan of v is in row 12.
+    The fan of v is in row STAR.
     """
     c = state.vertex[v, CURVE]
     stop = state.curve[c, 1]
@@ -181,7 +181,7 @@ def room_on_curve(state: State, v: int, n: int) -> tuple[float, float]:
     arc = state.value[v, ARC]
     behind, ahead = arc, length - arc
     for i in range(n):
-        t = state.fan[12, i]
+        t = state.fan[STAR, i]
         k = corner_of(state, t, v)
         for side, other in (((k + 2) % 3, (k + 1) % 3), ((k + 1) % 3, (k + 2) % 3)):
             code = state.triangle[t, 6 + side]
@@ -199,9 +199,9 @@ def room_on_curve(state: State, v: int, n: int) -> tuple[float, float]:
     return behind, ahead
 
 
-@compiled
+@inner
 def _relax_sliding(state: State, v: int) -> None:
-    n, _ = fan_of(state, v, 12)
+    n, _ = fan_of(state, v, STAR)
     if n == 0:
         return
     behind, ahead = room_on_curve(state, v, n)

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from .compiled import compiled
+from ..kinds import NO_CURVE
+from .compiled import inner, whole
 from .fan import side_to
 from .journal import keep_triangle, keep_vertex
 from .state import TRIANGLE, State
 
+FREE = whole(NO_CURVE)
+"""Code of a side on no curve."""
 
-@compiled
+
+@inner
 def put_triangle(
     state: State, t: int, a: int, b: int, c: int, na: int, nb: int, nc: int, ca: int, cb: int, cc: int
 ) -> None:
@@ -20,7 +24,7 @@ def put_triangle(
     row[t, 6], row[t, 7], row[t, 8] = ca, cb, cc
 
 
-@compiled
+@inner
 def relink(state: State, t: int, old: int, new: int) -> None:
     """Let triangle t (or nobody, -1) have neighbour new where it had old."""
     if t >= 0:
@@ -28,7 +32,7 @@ def relink(state: State, t: int, old: int, new: int) -> None:
         state.triangle[t, 3 + side_to(state, t, old)] = new
 
 
-@compiled
+@inner
 def anchor(state: State, v: int, t: int) -> None:
     """Let vertex v remember triangle t as one of its own."""
     if state.vertex[v, TRIANGLE] != t:

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from ..kinds import SLIDING
-from .compiled import compiled
+from .compiled import inner
 from .state import ARC, CURVE, HINT, KIND, OFFSET, State, U, W
 from .walk import walk
 
 
-@compiled
+@inner
 def look_up(state: State, v: int) -> None:
     """Set u, w (and the hint) of a vertex for the place where it is; fixed vertices keep their u."""
     if state.vertex[v, KIND] == SLIDING:
@@ -22,7 +22,7 @@ def look_up(state: State, v: int) -> None:
     state.value[v, W] = np.exp(-2.0 * state.value[v, U])
 
 
-@compiled
+@inner
 def place_on_curve(state: State, v: int, c: int, arc: float) -> None:
     """Put a vertex on curve c at an arc length; sets point, arc, u, w and hint."""
     arc, k, share = polyline_place(state, c, arc)
@@ -35,14 +35,14 @@ def place_on_curve(state: State, v: int, c: int, arc: float) -> None:
     state.vertex[v, HINT] = state.curve_triangle[k]
 
 
-@compiled
+@inner
 def goal_on_curve(state: State, v: int) -> float:
     """Return the valence that suits a sliding vertex where it is."""
     _, k, share = polyline_place(state, state.vertex[v, CURVE], state.value[v, ARC])
     return state.curve_point[k + 1 if share > 0.5 else k, 4]
 
 
-@compiled
+@inner
 def polyline_place(state: State, c: int, arc: float) -> tuple[float, int, float]:
     """Return arc (within the curve), the segment it lies on, and where on that segment, 0 to 1."""
     first, stop = state.curve[c, 0], state.curve[c, 1]
@@ -66,7 +66,7 @@ def polyline_place(state: State, c: int, arc: float) -> tuple[float, int, float]
     return arc, low, min(max(share, 0.0), 1.0)
 
 
-@compiled
+@inner
 def size_at(state: State, x: float, y: float, hint: int) -> tuple[float, int]:
     """Return log of the wanted size and the triangle near (x, y)."""
     t, la, lb, lc = walk(state.map_point, state.map_triangle, x, y, hint)

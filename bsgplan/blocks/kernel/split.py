@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from ..kinds import FROZEN_SIDE, INTERIOR, SLIDING
 from .bend import side_arcs
-from .compiled import compiled
+from .compiled import inner
 from .energy import refresh_triangle, set_valence
 from .fan import side_to
 from .flip import MOST
 from .journal import keep_vertex, take_triangle, take_vertex
-from .rows import anchor, put_triangle, relink
+from .rows import FREE, anchor, put_triangle, relink
 from .size_at import goal_on_curve, look_up
 from .state import ARC, CURVE, ENERGY, GOAL, HINT, KIND, TRIANGLE, VALENCE, State
 
 
-@compiled
+@inner
 def can_split(state: State, t: int, side: int) -> bool:
     """Return True where the edge is not frozen and the vertices opposite it may get one more edge."""
     if state.triangle[t, 6 + side] == FROZEN_SIDE:
@@ -25,7 +25,7 @@ def can_split(state: State, t: int, side: int) -> bool:
     return n < 0 or state.vertex[state.triangle[n, side_to(state, n, t)], VALENCE] < MOST
 
 
-@compiled
+@inner
 def split(state: State, t: int, side: int) -> int:
     """Split the edge at that side, inside a transaction; return the new vertex, -1 on overflow.
 
@@ -46,13 +46,13 @@ def split(state: State, t: int, side: int) -> int:
         d, reverse = row[n, back], row[n, 6 + back]
         n_c, l_c = row[n, 3 + (back + 1) % 3], row[n, 6 + (back + 1) % 3]
         n_b, l_b = row[n, 3 + (back + 2) % 3], row[n, 6 + (back + 2) % 3]
-        put_triangle(state, n, d, m, b, t, n_c, n2, reverse, l_c, -1)
-        put_triangle(state, n2, d, c, m, t2, n, n_b, reverse, -1, l_b)
+        put_triangle(state, n, d, m, b, t, n_c, n2, reverse, l_c, FREE)
+        put_triangle(state, n2, d, c, m, t2, n, n_b, reverse, FREE, l_b)
         relink(state, n_b, n, n2)
         set_valence(state, d, state.vertex[d, VALENCE] + 1)
         anchor(state, d, n)
-    put_triangle(state, t, a, b, m, n, t2, t_c, code, -1, k_c)
-    put_triangle(state, t2, a, m, c, n2, t_b, t, code, k_b, -1)
+    put_triangle(state, t, a, b, m, n, t2, t_c, code, FREE, k_c)
+    put_triangle(state, t2, a, m, c, n2, t_b, t, code, k_b, FREE)
     relink(state, t_b, t, t2)
     anchor(state, a, t)
     anchor(state, b, t)
@@ -68,7 +68,7 @@ def split(state: State, t: int, side: int) -> int:
     return m
 
 
-@compiled
+@inner
 def _place(state: State, m: int, t: int, side: int, b: int, c: int, code: int) -> None:
     keep_vertex(state, m)
     state.value[m, ENERGY] = 0.0

@@ -14,6 +14,7 @@ import numpy as np
 from ...arrays import Floats, Ints
 from ..corners import boundary_goals
 from ..domain import Domain
+from .compiled import whole
 
 TRIANGLE, VALENCE, KIND, CURVE, HINT = range(5)
 """Columns of `vertex`: a triangle at it, number of edges, kind, curve (or -1), domain triangle near it."""
@@ -35,6 +36,11 @@ LOG_ROWS = 6000
 FAN = 64
 """The most triangles at one vertex that kernels gather."""
 
+NEAR, GONE, STAR, JOINED, COMMON, SPARE = map(whole, range(2, 8))
+"""Rows of `fan` that hold the triangles at a vertex, by who asks; the first two are the annealing's."""
+
+PARTS = 4
+"""Edges into which a bent side is cut for its price."""
 
 Numbers = TypeVar("Numbers", bound=np.ndarray[Any, Any])
 
@@ -68,7 +74,9 @@ class State(NamedTuple):
     freed: Ints
     """Rows freed in this transaction, (LOG_ROWS, 2): what, row."""
     fan: Ints
-    """Scratch for fans of triangles, (16, FAN)."""
+    """Scratch for fans of triangles, (8, FAN)."""
+    bow: Floats
+    """Scratch for how far a bent side lies from its chord, (PARTS + 1, 2); its ends stay 0."""
     mark: Ints
     """Stamp of the last list that each vertex was put on, (room,)."""
     seed: np.ndarray[tuple[int], np.dtype[np.uint64]]
@@ -106,7 +114,8 @@ def new_state(domain: Domain, log_size: Floats, points: Floats, rows: Ints, vert
         log_float=np.empty((LOG_ROWS, 7)),
         taken=np.empty((LOG_ROWS, 2), dtype=np.int64),
         freed=np.empty((LOG_ROWS, 2), dtype=np.int64),
-        fan=np.empty((16, FAN), dtype=np.int64),
+        fan=np.empty((8, FAN), dtype=np.int64),
+        bow=np.zeros((PARTS + 1, 2)),
         mark=np.zeros(most_vertices, dtype=np.int64),
         seed=np.array([seed], dtype=np.uint64),
         map_point=np.ascontiguousarray(domain.points),

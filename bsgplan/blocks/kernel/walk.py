@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from ...arrays import Floats, Ints
-from .compiled import compiled
+from .compiled import compiled, inner
 
 STEPS = 2000
 """The most triangles that one walk crosses: it stops walks that circle round a point outside."""
 
 
-@compiled
+@inner
 def walk(points: Floats, triangles: Ints, x: float, y: float, hint: int) -> tuple[int, float, float, float]:
     """Return the triangle that holds (x, y) and its barycentric coordinates there, from triangle hint on.
 
