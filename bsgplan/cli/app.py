@@ -7,7 +7,6 @@ import logging
 import os
 import sys
 from collections.abc import Iterator
-from importlib.metadata import version
 
 from cyclopts import App, CycloptsError, UnknownCommandError
 
@@ -60,11 +59,17 @@ def main(argv: list[str] | None = None) -> int:
 
 def app() -> App:
     """Return the command-line application with every command registered by its import path."""
-    result = App(name="bsgplan", help=HELP, version=lambda: version("bsgplan"), help_format="plaintext")
+    result = App(name="bsgplan", help=HELP, version=_version, help_format="plaintext")
     result.suppress_keyboard_interrupt = False  # `main` tells it, as it tells every error
     for name, (import_path, help_line) in COMMANDS.items():
         result.command(import_path, name=name, help=help_line)
     return result
+
+
+def _version() -> str:
+    from importlib.metadata import version  # loads the email package
+
+    return version("bsgplan")
 
 
 def _usage_error(error: CycloptsError) -> str:
