@@ -19,6 +19,7 @@ def sweep(
     scheduler: str | None = None,
     objective: str = "balanced",
     size: str | None = None,
+    size_file: Path | None = None,
     lonlat: Annotated[bool, Parameter(negative=(), show_default=False)] = False,
     split_quads: Annotated[bool, Parameter(negative=(), show_default=False)] = False,
     persistence: float = 1.3,
@@ -46,6 +47,9 @@ def sweep(
         What patterns are chosen for: size, blocks, irregularity, quality or balanced.
     size
         A point or cell array of each file that holds the edge length wanted; default: the mesh's own edges.
+    size_file
+        Take the edge length wanted from this file, for every mesh: a Gmsh .pos, a Medit .sol, a JIGSAW grid or
+        any mesh.
     lonlat
         The coordinates are degrees of longitude and latitude.
     split_quads
@@ -73,13 +77,22 @@ def sweep(
         raise InvalidOption(
             "--workers are those of this machine, --scheduler has its own; give one of the two"
         )
-    check_writable(out, sources=[Path(file) for file in files])
+    check_writable(out, sources=[*map(Path, files), size_file])
     with stages() as progress:
         rows = sweep_files(
             files,
             out,
             block_sizes=sizes,
-            options=Options(objective, size, lonlat, split_quads, persistence, plateau, gradient_limit),
+            options=Options(
+                objective=objective,
+                size=size,
+                size_file=None if size_file is None else str(size_file),
+                is_lonlat=lonlat,
+                split_quads=split_quads,
+                persistence=persistence,
+                plateau=plateau,
+                gradient_limit=gradient_limit,
+            ),
             n_workers=workers,
             scheduler=scheduler,
             progress=progress,

@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from ..errors import BsgplanError
+from ..io.triangle import ELE, NODE, both_paths
 
 if TYPE_CHECKING:
     from ..io import MeshFile
@@ -48,6 +49,7 @@ class Options:
 
     objective: str = "balanced"
     size: str | None = None
+    size_file: str | None = None
     is_lonlat: bool = False
     split_quads: bool = False
     persistence: float = 1.3
@@ -58,6 +60,7 @@ class Options:
         words = [f"objective={self.objective}", f"persistence={self.persistence:g}"]
         words += [f"plateau={self.plateau:g}", f"gradient-limit={self.gradient_limit:g}"]
         words += [f"size={self.size}"] if self.size is not None else []
+        words += [f"size-file={self.size_file}"] if self.size_file is not None else []
         words += ["lonlat"] if self.is_lonlat else []
         return " ".join([*words, "split-quads"] if self.split_quads else words)
 
@@ -71,10 +74,12 @@ class Job:
     path: str
     """The absolute path, the same on every machine that works on it."""
     content: str
-    """Digest of the file's bytes, empty where it cannot be read."""
+    """Digest of the bytes of all files read, empty where one of them cannot be."""
     block_sizes: tuple[int, ...]
     """Triangles per block, one row each."""
     options: Options = Options()
+    size_path: str | None = None
+    """The absolute path of the size file."""
 
     def key(self, tris_per_block: int) -> Key:
         """Return what tells the row of a block size from any other."""
@@ -99,12 +104,23 @@ class Job:
 def job(file: str, block_sizes: tuple[int, ...], options: Options) -> Job:
     """Return the job of a file."""
     path = Path(file)
+    size_path = None if options.size_file is None else Path(options.size_file).resolve()
+    files = both_paths(path) if path.suffix.lower() in (NODE, ELE) else (path,)
+    content = _digest(files if size_path is None else (*files, size_path))
+    return Job(
+        file, str(path.resolve()), content, block_sizes, options, None if size_path is None else str(size_path)
+    )
+
+
+def _digest(files: Iterable[Path]) -> str:
+    digest = hashlib.sha256()
     try:
-        with path.open("rb") as stream:
-            content = hashlib.file_digest(stream, "sha256").hexdigest()[:16]
+        for file in files:
+            with file.open("rb") as stream:
+                digest.update(hashlib.file_digest(stream, "sha256").digest())
     except OSError:
-        content = ""
-    return Job(file, str(path.resolve()), content, block_sizes, options)
+        return ""
+    return digest.hexdigest()[:16]
 
 
 def plan_rows(job: Job) -> list[Row]:
@@ -130,6 +146,7 @@ def _plan(job: Job, mesh_file: MeshFile, tris_per_block: int) -> PlannedMesh:
         mesh_file,
         tris_per_block=tris_per_block,
         size=job.options.size,
+        size_file=job.size_path,
         objective=job.options.objective,
         persistence=log(job.options.persistence),
         plateau=job.options.plateau,

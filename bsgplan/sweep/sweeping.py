@@ -28,11 +28,14 @@ def sweep(
     out is a CSV file: rows that it holds already for the same content, options and version are kept and not
     planned again, others are added one by one. n_workers processes of this machine, default one a processor,
     or the workers of the Dask scheduler at that address. A mesh that fails is a row with its error.
-    Raises MeshReadError where nothing matches, OutputError where out cannot be written.
+    Raises MeshReadError where nothing matches or the size file is missing, OutputError where out cannot be
+    written.
     """
     path = Path(out)
     files = matching(patterns, leave=path)
     asked = options or Options()
+    if asked.size_file is not None and not Path(asked.size_file).is_file():
+        raise MeshReadError(f"{asked.size_file}: no such file for --size-file; check the path")
     jobs = [job(file, tuple(dict.fromkeys(block_sizes)), asked) for file in files]
     rows = kept_rows(read_rows(path), jobs)
     sheet = Sheet(path, rows)

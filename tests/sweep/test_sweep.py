@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from bsgplan import plan_blocks, read
+from bsgplan import plan_blocks, read, write
 from bsgplan.cli import main
 from bsgplan.errors import InvalidOption, MeshReadError, OutputError
 from bsgplan.sweep import sweep
@@ -82,6 +82,40 @@ def test_a_changed_file_or_option_is_planned_anew_and_other_rows_stay(folder: Pa
     assert table(out) == [new]
     sweep([str(mesh)], out, options=Options(objective="blocks"))
     assert [row["options"].split()[0] for row in table(out)] == ["objective=balanced", "objective=blocks"]
+
+
+def test_sizes_come_from_a_file_and_a_changed_one_is_planned_anew(folder: Path) -> None:
+    """The plans of `estimate --size-file`, at any place the sweep is started from."""
+    mesh, sizes, out = folder / "square.msh", folder / "sizes.pos", folder / "sweep.csv"
+    view = 'View "h" {{ST(-9,-9,0,29,-9,0,-9,29,0){{{0},{0},{0}}};}};'
+    asked = Options(size_file=str(sizes))
+    plain = read(mesh).mesh
+    h = float(plain.edge_lengths.mean())
+    found = []
+    for size in (h, h / 2):
+        sizes.write_text(view.format(size))
+        (row,) = sweep([str(mesh)], out, options=asked, n_workers=1)
+        found.append(row)
+        plan = plan_blocks(read(mesh), size_file=sizes).plan
+        assert int(row["blocks"]) == plan.n_blocks
+    assert found[0]["content"] != found[1]["content"]
+    assert table(out) == found[1:]
+    assert int(found[1]["blocks"]) == pytest.approx(4 * int(found[0]["blocks"]), rel=0.1)
+    sizes.write_text(view.format(0))
+    (row,) = sweep([str(mesh)], out, options=asked, n_workers=1)
+    assert "sizes.pos" in row["error"]
+    sizes.unlink()
+    with pytest.raises(MeshReadError, match="no such file for --size-file"):
+        sweep([str(mesh)], out, options=asked)
+
+
+def test_a_changed_companion_is_planned_anew(folder: Path) -> None:
+    """Of a .node with its .ele either is the mesh."""
+    write(read(folder / "square.msh"), folder / "square.node")
+    first = job(str(folder / "square.node"), (16,), Options())
+    with (folder / "square.ele").open("a") as stream:
+        stream.write("# changed\n")
+    assert job(str(folder / "square.node"), (16,), Options()).content != first.content
 
 
 def test_a_table_of_something_else_is_left_alone(folder: Path) -> None:
