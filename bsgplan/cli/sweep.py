@@ -48,8 +48,7 @@ def sweep(
     size
         A point or cell array of each file that holds the edge length wanted; default: the mesh's own edges.
     size_file
-        Take the edge length wanted from this file, for every mesh: a Gmsh .pos, a Medit .sol, a JIGSAW grid or
-        any mesh.
+        Take it from this file, for every mesh: a Gmsh .pos, a Medit .sol, a JIGSAW grid or any mesh.
     lonlat
         The coordinates are degrees of longitude and latitude.
     split_quads

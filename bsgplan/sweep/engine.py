@@ -7,9 +7,11 @@ machine lost) costs its jobs one more try, and then a row with the error; the ot
 from __future__ import annotations
 
 import multiprocessing
+import signal
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 
 from ..errors import InvalidOption, MeshReadError
 from .job import Job, Row, plan_rows
@@ -26,17 +28,11 @@ def local(jobs: Sequence[Job], n_workers: int) -> Iterator[list[Row]]:
     left = dict(enumerate(jobs))
     with _pool(min(n_workers, len(jobs))) as pool:
         futures = {pool.submit(plan_rows, job): k for k, job in left.items()}
-        try:
-            for future in as_completed(futures):
-                if not isinstance(future.exception(), BrokenProcessPool):
-                    del left[futures[future]]
-                    yield future.result()
-        except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
-            raise
-    for (
-        job
-    ) in left.values():  # a dead worker takes its pool with it: each on its own now, to find the culprit
+        for future in as_completed(futures):
+            if not isinstance(future.exception(), BrokenProcessPool):
+                del left[futures[future]]
+                yield future.result()
+    for job in left.values():  # a dead worker takes its pool with it: each alone now, to find the culprit
         yield _alone(job)
 
 
@@ -48,8 +44,25 @@ def _alone(job: Job) -> list[Row]:
             return job.failed(f"{DIED} on this mesh, twice or alone; is there enough memory?")
 
 
-def _pool(n_workers: int) -> ProcessPoolExecutor:
-    return ProcessPoolExecutor(n_workers, mp_context=multiprocessing.get_context("spawn"))
+@contextmanager
+def _pool(n_workers: int) -> Iterator[ProcessPoolExecutor]:
+    """A pool whose workers end at once when this process is interrupted: what they are at is not lost."""
+    others = set(multiprocessing.active_children())
+    context = multiprocessing.get_context("spawn")
+    pool = ProcessPoolExecutor(n_workers, mp_context=context, initializer=_ignore_interrupts)
+    try:
+        yield pool
+    except BaseException:
+        for worker in set(multiprocessing.active_children()) - others:
+            worker.terminate()
+        raise
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def _ignore_interrupts() -> None:
+    """Leave Ctrl-C, which a terminal sends to every process, to the one that started the workers."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def on_cluster(jobs: Sequence[Job], address: str) -> Iterator[list[Row]]:

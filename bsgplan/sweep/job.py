@@ -104,12 +104,10 @@ class Job:
 def job(file: str, block_sizes: tuple[int, ...], options: Options) -> Job:
     """Return the job of a file."""
     path = Path(file)
-    size_path = None if options.size_file is None else Path(options.size_file).resolve()
+    size_path = None if options.size_file is None else str(Path(options.size_file).resolve())
     files = both_paths(path) if path.suffix.lower() in (NODE, ELE) else (path,)
-    content = _digest(files if size_path is None else (*files, size_path))
-    return Job(
-        file, str(path.resolve()), content, block_sizes, options, None if size_path is None else str(size_path)
-    )
+    content = _digest(files if size_path is None else (*files, Path(size_path)))
+    return Job(file, str(path.resolve()), content, block_sizes, options, size_path)
 
 
 def _digest(files: Iterable[Path]) -> str:

@@ -18,6 +18,7 @@ from bsgplan.io import read
 from bsgplan.io.read import read_raw
 from bsgplan.io.sniff import sniff
 from bsgplan.pipeline import plan_blocks
+from bsgplan.report.mesh_report import vertex_lengths
 from bsgplan.result import mesh_document
 
 FOLDER = SHARED / "meshes"
@@ -80,7 +81,11 @@ def test_agrees_with_the_independent_measurement(row):
     edges = row["edge min/med/max"].split(" / ")
     for name, printed in zip(("edge_min", "edge_median", "edge_max"), edges, strict=True):
         assert_printed(found[name], printed)
-    assert_printed(found["size_ratio"], row["size ratio h (edge; 1-99%)"])
+    ratio, of_edges, middle = re.findall(r"[\d.e+]+", row["size ratio h (edge; 1-99%)"])
+    assert_printed(found["size_ratio"], ratio)
+    assert_printed(found["edge_max"] / found["edge_min"], of_edges)
+    low, high = np.percentile(vertex_lengths(mesh_file.mesh.topology, mesh_file.mesh.edge_lengths), [1, 99])
+    assert_printed(high / low, middle)
     q_min, q_mean = re.findall(r"[\d.e-]+", row["q min (mean)"])
     assert_printed(found["q_min"], q_min)
     assert found["q_mean"] == pytest.approx(float(q_mean), abs=0.0051)
@@ -88,6 +93,55 @@ def test_agrees_with_the_independent_measurement(row):
     assert [found["irregular_interior"], found["n_interior"]] == interior
     boundary = [int(n) for n in row["irregular boundary / boundary"].split(" / ")]
     assert [found["irregular_boundary"], found["n_boundary"]] == boundary
+
+
+NOTED = {
+    "wnat_test_18578.fort.14": {"pinches": 15, "n_points": 9934, "n_triangles": 18578},
+    "clockwise_Test_Case_4.2.fort.14": {"notes": ["4622 clockwise triangles turned counter-clockwise"]},
+    "helmholtz_apartment.vtk": {"notes": ["524 clockwise triangles turned counter-clockwise"]},
+    "quadratic_tri.msh": {"notes": ["cells of higher order are taken by their corners"], "n_triangles": 119},
+    "multizone_cht_3cyl_ffd.su2": {"n_triangles": 1552, "notes": ["4 zones joined, their points stay apart"]},
+    "katrina_wnat_om2d.fort.14": {"n_boundary_loops": 1 + 42, "bounds": [-97.9, -60.0, 8.0, 45.7]},
+    "columbia_plume_02_normal.msh": {"n_boundary_loops": 1 + 5},
+    "north_sea.msh": {"n_boundary_loops": 1 + 36},
+    "weirs_internal_overflow.fort.14": {"n_components": 3},
+    "vew1d_coincident_seams.fort.14": {"notes": ["302 points coincide with another point; they stay apart"]},
+    "partial_physical_groups_9101.msh": {"ignored": {"quad": 9950, "hexahedron": 4881}},
+    "bohai_yellow_sea_BYS_20814.2dm": {"n_boundary_loops": 24},
+    "bunny_adaptive.off": {"n_boundary_loops": 0, "n_boundary": 0},
+    "osteonT1_11.mesh": {"arrays": {"points": ["medit:ref"], "cells": ["medit:ref"]}},
+}
+"""What the last column of the measurement says in words, where a number of ours says it too."""
+
+
+@pytest.mark.parametrize("name", NOTED)
+def test_what_the_measurement_notes_in_words_is_found(meshes, name, capsys):
+    assert main(["info", str(meshes / name), "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)["mesh"]
+    for key, expected in NOTED[name].items():
+        if key == "notes":
+            assert any(note.startswith(expected[0]) for note in found["notes"])
+        elif key == "bounds":
+            assert found["bounds"] == pytest.approx(expected, abs=0.1)
+        elif key == "ignored":
+            assert {kind: found["ignored"].get(kind) for kind in expected} == expected
+        else:
+            assert found[key] == expected
+
+
+def test_the_slivers_of_the_measurement_are_found(meshes):
+    """8 of q < 0.1 are noted."""
+    assert np.count_nonzero(read(meshes / "wnat_test_18578.fort.14").mesh.qualities < 0.1) == 8
+
+
+def test_no_measured_mesh_and_no_twin_is_left_out(meshes):
+    """A mesh that the registry stopped to recognise would be dropped from the lists above in silence."""
+    assert len(READ) + len(UNMEASURED) == len(measured()) == 25
+    assert all(is_read(original(twin)) for twin in TWINS)
+    assert len(TWINS) == len(list((meshes / "oracle").iterdir()))
+    sources = (meshes / "SOURCES.tsv").read_text().splitlines()[1:]
+    kept = {line.split("\t")[0] for line in sources if not line.startswith("malformed")}
+    assert kept == {row["name"] for row in measured()}
 
 
 @pytest.mark.parametrize("row", UNMEASURED, ids=[row["name"] for row in UNMEASURED])

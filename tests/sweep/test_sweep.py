@@ -6,6 +6,8 @@ import csv
 import os
 import shutil
 import signal
+import subprocess
+import sys
 import time
 from pathlib import Path
 
@@ -35,6 +37,15 @@ def table(path: Path) -> list[dict[str, str]]:
         rows = list(csv.DictReader(stream))
     assert all(set(row) == set(COLUMNS) and None not in row.values() for row in rows)
     return rows
+
+
+def is_alive(group: int) -> bool:
+    """Return whether a process group has a process."""
+    try:
+        os.killpg(group, 0)
+    except ProcessLookupError:
+        return False
+    return True
 
 
 def test_one_row_a_file_and_block_size_and_bad_files_are_rows(folder: Path) -> None:
@@ -167,6 +178,40 @@ def test_a_mesh_that_kills_its_worker_is_a_row_and_the_others_are_planned(
     assert len(rows) == 3
     assert [bool(rows[one.file]["error"]) for one in jobs] == [True, False, False]
     assert rows[jobs[0].file]["error"].startswith(DIED)
+
+
+def test_ctrl_c_ends_the_workers_too_and_the_sweep_goes_on_later(folder: Path) -> None:
+    """A plug-in of the workers lets one mesh take ten minutes, as a large one might."""
+    site, out = folder / "site", folder / "sweep.csv"
+    site.mkdir()
+    (site / "sitecustomize.py").write_text(
+        "import pathlib, time\n"
+        "opened = pathlib.Path.open\n"
+        "def slow(self, *args, **options):\n"
+        "    if self.name == 'square.msh' and __import__('multiprocessing').parent_process():\n"
+        "        time.sleep(600)\n"
+        "    return opened(self, *args, **options)\n"
+        "pathlib.Path.open = slow\n"
+    )
+    start = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)\n"
+    start += "from bsgplan.cli import main; raise SystemExit(main())"
+    words = ["sweep", str(folder / "*.msh"), "--out", str(out), "--workers", "1"]
+    paths = os.pathsep.join([str(site), *sys.path])
+    process = subprocess.Popen(
+        [sys.executable, "-c", start, *words], env={**os.environ, "PYTHONPATH": paths}, start_new_session=True
+    )
+    patience = time.monotonic() + 120
+    while not (out.exists() and out.read_text().count("\n") == 3):
+        assert time.monotonic() < patience
+        time.sleep(0.05)
+    os.killpg(process.pid, signal.SIGINT)  # as a terminal does: to the workers as well
+    assert process.wait(60) == 130
+    while is_alive(process.pid):  # nothing is left, a moment later
+        assert time.monotonic() < patience
+        time.sleep(0.05)
+    assert [Path(row["file"]).name for row in table(out)] == ["bad.msh", "rectangle.msh"]
+    rows = sweep([str(folder / "*.msh")], out, n_workers=1)
+    assert [bool(row["error"]) for row in rows] == [True, False, False]
 
 
 def test_a_cluster_survives_the_death_of_a_worker(folder: Path) -> None:
