@@ -23,6 +23,7 @@ from .blocks.domain import domain_of
 from .blocks.target import target_of
 from .errors import InvalidMesh, MeshReadError
 from .io import MeshFile
+from .io.isotropy import warn_of_stretched
 from .io.part import part_of
 from .io.size_file import sizes_from
 from .planning import Plan, check_block_size, estimate
@@ -133,14 +134,15 @@ def size_of(
 ) -> SizeField:
     """Return the size field of a mesh file: its own edges, its array of that name, or that of a size file.
 
-    Lengths of a projected mesh are true metres. Raises MeshReadError where there is no such array, and what
-    `sizes_from` raises.
+    Lengths of a projected mesh are true metres. Warns where many triangles are stretched, if their edges are
+    the size. Raises MeshReadError where there is no such array, and what `sizes_from` raises.
     """
     mesh = mesh_file.mesh
     if size_file is not None:
         source = os.fspath(size_file) + ("" if name is None else f": {name}")
         return named_size_field(mesh, sizes_from(size_file, mesh_file, name=name), source)
     if name is None:
+        warn_of_stretched(mesh_file)
         return size_field(mesh)
     arrays = {**mesh_file.cell_data, **mesh_file.point_data}
     if name not in arrays:

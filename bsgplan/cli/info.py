@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -96,12 +95,9 @@ def open_mesh(file: Path, *, is_lonlat: bool, split_quads: bool = False) -> Mesh
 
 def cleaned(file: Path, file_format: str, raw: RawMesh, *, is_lonlat: bool, split_quads: bool) -> MeshFile:
     """Return the mesh of what stands in a file; warn where it looks like degrees without --lonlat."""
-    from ..io import looks_like_degrees
+    from ..io.projection import warn_of_degrees
     from ..io.read import assembled
 
     mesh_file = assembled(file, file_format, raw, is_lonlat=is_lonlat, split_quads=split_quads)
-    if looks_like_degrees(mesh_file):
-        logging.getLogger("bsgplan").warning(
-            "%s: the coordinates look like degrees, lengths are then no lengths; give --lonlat", file
-        )
+    warn_of_degrees(mesh_file)
     return mesh_file

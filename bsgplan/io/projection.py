@@ -6,6 +6,7 @@ quality and irregularity keep their meaning, and lengths are true after division
 
 from __future__ import annotations
 
+import logging
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -144,6 +145,15 @@ def looks_like_degrees(mesh_file: MeshFile) -> bool:
     west, east, south, north = mesh_file.mesh.bounds[:4]
     is_inside = west >= -180 and east <= 360 and south >= -90 and north <= 90
     return is_inside and max(east - west, north - south) > SMALLEST_DEGREES
+
+
+def warn_of_degrees(mesh_file: MeshFile) -> None:
+    """Warn where a mesh looks like degrees and was not projected."""
+    if looks_like_degrees(mesh_file):
+        logging.getLogger("bsgplan").warning(
+            "%s: the coordinates look like degrees, lengths are then no lengths; give --lonlat",
+            mesh_file.path,
+        )
 
 
 def _check_degrees(degrees: Floats) -> None:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import logging
 import os
 from dataclasses import replace
 from pathlib import Path
 
+from ..arrays import Ints
 from ..errors import BsgplanError, InvalidMesh, MeshReadError
+from ..mesh.hanging import hanging_points
 from .file import MeshFile, RawMesh, assemble
 from .projection import project_raw
 from .sniff import sniff
@@ -37,7 +40,10 @@ def assembled(
     is_lonlat: bool = False,
     split_quads: bool = False,
 ) -> MeshFile:
-    """Return the MeshFile of what stands in a file, projected and with its quads split if asked."""
+    """Return the MeshFile of what stands in a file, projected and with its quads split if asked.
+
+    Warns of hanging nodes.
+    """
     projection, points = None, raw.points
     try:
         if is_lonlat and (len(raw.triangles) or len(raw.quads)):
@@ -47,9 +53,27 @@ def assembled(
     except InvalidMesh as error:
         raise InvalidMesh(f"{os.fspath(path)}: {error}") from None
     mesh_file = assemble(os.fspath(path), file_format, raw, projection)
-    if projection is None:
-        return mesh_file
-    return replace(mesh_file, degrees=points[mesh_file.kept_points, :2])
+    own = points[mesh_file.kept_points]  # straight edges of the file are not straight in a projection
+    cracks = cracks_told(mesh_file.kept_points[hanging_points(own, mesh_file.mesh.topology)])
+    if cracks:
+        logging.getLogger("bsgplan").warning("%s: %s", os.fspath(path), cracks)
+        mesh_file = replace(mesh_file, notes=(*mesh_file.notes, cracks))
+    return mesh_file if projection is None else replace(mesh_file, degrees=own[:, :2])
+
+
+def cracks_told(hanging: Ints) -> str:
+    """Return a sentence on hanging nodes, given by their places in the file; empty where there are none.
+
+    >>> import numpy as np
+    >>> cracks_told(np.array([4]))
+    '1 hanging node (4, from 0) in the middle of an edge: the mesh is cracked there; make it conforming'
+    """
+    if not len(hanging):
+        return ""
+    named = ", ".join(map(str, hanging[:5].tolist())) + (", .." if len(hanging) > 5 else "")
+    s = "" if len(hanging) == 1 else "s"
+    where = "the mesh is cracked there; make it conforming"
+    return f"{len(hanging)} hanging node{s} ({named}, from 0) in the middle of an edge: {where}"
 
 
 def read_raw(path: str | os.PathLike[str]) -> tuple[str, RawMesh]:

@@ -8,20 +8,21 @@ from __future__ import annotations
 
 import multiprocessing
 import signal
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 
 from ..errors import InvalidOption, MeshReadError
-from .job import Job, Row, plan_rows
+from .job import Job, Row
 from .table import DIED
+from .work import plan_rows
 
 CONNECTING = 10.0
 """Seconds to wait for a Dask scheduler."""
 
 
-def local(jobs: Sequence[Job], n_workers: int) -> Iterator[list[Row]]:
+def local(jobs: Sequence[Job], n_workers: int) -> Generator[list[Row]]:
     """Give the rows of each job, run in so many processes of this machine."""
     if not jobs:
         return
@@ -65,7 +66,7 @@ def _ignore_interrupts() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
-def on_cluster(jobs: Sequence[Job], address: str) -> Iterator[list[Row]]:
+def on_cluster(jobs: Sequence[Job], address: str) -> Generator[list[Row]]:
     """Give the rows of each job, run by the workers of the Dask scheduler at this address.
 
     Files are read by the workers, under the same absolute paths. Raises InvalidOption where no scheduler

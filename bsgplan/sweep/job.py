@@ -1,4 +1,4 @@
-"""The noun Job, one mesh file at some block sizes, and the work on it: one row a block size, come what may.
+"""The noun Job: one mesh file at some block sizes, one row each.
 
 A job and its rows are plain data, so they travel to any process. A row is told from others by `Key`: the
 content of the file, what was asked, and the version that answered.
@@ -7,21 +7,13 @@ content of the file, what was asked, and the version that answered.
 from __future__ import annotations
 
 import hashlib
-import time
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from importlib.metadata import version
-from math import log
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
-from ..errors import BsgplanError
 from ..io.triangle import ELE, NODE, both_paths
-
-if TYPE_CHECKING:
-    from ..io import MeshFile
-    from ..planning import Plan
-    from ..result import PlannedMesh
 
 Row: TypeAlias = dict[str, str]
 Key: TypeAlias = tuple[str, str, str, str, str]
@@ -36,11 +28,11 @@ RESULTS = (
 )  # fmt: skip
 """Columns of a plan; empty where there is an error."""
 
-COLUMNS = (*KEY, *RESULTS, "error")
+COLUMNS = (*KEY, *RESULTS, "warnings", "error")
 """The columns of the CSV file."""
 
-LONGEST_ERROR = 500
-"""Characters of an error kept in a row."""
+LONGEST_MESSAGE = 500
+"""Characters of an error, or of the warnings, kept in a row."""
 
 
 @dataclass(frozen=True)
@@ -97,8 +89,7 @@ class Job:
 
     def failed(self, reason: str) -> list[Row]:
         """Return a row with an error for each block size."""
-        line = " ".join(reason.split())[:LONGEST_ERROR]
-        return [self.row(n, error=line) for n in self.block_sizes]
+        return [self.row(n, error=shortened(reason)) for n in self.block_sizes]
 
 
 def job(file: str, block_sizes: tuple[int, ...], options: Options) -> Job:
@@ -121,71 +112,13 @@ def _digest(files: Iterable[Path]) -> str:
     return digest.hexdigest()[:16]
 
 
-def plan_rows(job: Job) -> list[Row]:
-    """Return one row for each block size of a job, with its plan or its error; raises nothing of its own."""
-    try:
-        mesh_file = _open(job)
-    except Exception as error:  # any mesh, hostile ones too: the sweep goes on
-        return job.failed(_reason(error))
-    return [row for n in job.block_sizes for row in _planned(job, mesh_file, n)]
+def shortened(text: str) -> str:
+    r"""Return a text on one line, cut where it is long.
 
-
-def _open(job: Job) -> MeshFile:
-    from ..io import read, read_lonlat
-
-    opened = read_lonlat if job.options.is_lonlat else read
-    return opened(job.path, split_quads=job.options.split_quads)
-
-
-def _plan(job: Job, mesh_file: MeshFile, tris_per_block: int) -> PlannedMesh:
-    from ..pipeline import plan_blocks
-
-    return plan_blocks(
-        mesh_file,
-        tris_per_block=tris_per_block,
-        size=job.options.size,
-        size_file=job.size_path,
-        objective=job.options.objective,
-        persistence=log(job.options.persistence),
-        plateau=job.options.plateau,
-        gradient_limit=job.options.gradient_limit,
-    )
-
-
-def _planned(job: Job, mesh_file: MeshFile, tris_per_block: int) -> list[Row]:
-    start = time.process_time()
-    try:
-        result = _plan(job, mesh_file, tris_per_block)
-    except Exception as error:
-        return replace(job, block_sizes=(tris_per_block,)).failed(_reason(error))
-    values = _results(result.plan) | {"format": result.mesh_file.format}
-    return [job.row(tris_per_block, **values, cpu_seconds=time.process_time() - start)]
-
-
-def _results(plan: Plan) -> dict[str, Any]:
-    mesh = plan.regions.size.mesh
-    return {
-        "points": mesh.n_points,
-        "triangles": mesh.n_triangles,
-        "regions": len(plan.regions),
-        "transitions": sum(p.chosen is not None for p in plan.region_plans),
-        "limited": sum(p.limited is not None for p in plan.region_plans),
-        "blocks": plan.n_blocks,
-        "planned_triangles": plan.planned_triangles,
-        "blocks_by_count": plan.drivers.blocks_by_count,
-        "blocks_gradient_limited": plan.drivers.blocks_gradient_limited,
-        "q_min": plan.q_min,
-        "q_bound": plan.q_bound,
-        "iota_positive": plan.irregularity.positive,
-        "iota_negative": plan.irregularity.negative,
-        "charge": plan.drivers.charge,
-    }
-
-
-def _reason(error: Exception) -> str:
-    if isinstance(error, BsgplanError):
-        return str(error)
-    return f"internal error: {type(error).__name__}: {error}"
+    >>> shortened("two\nlines")
+    'two lines'
+    """
+    return " ".join(text.split())[:LONGEST_MESSAGE]
 
 
 def _text(value: Any) -> str:

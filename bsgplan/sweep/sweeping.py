@@ -5,6 +5,7 @@ from __future__ import annotations
 import glob
 import os
 from collections.abc import Callable, Sequence
+from contextlib import closing
 from pathlib import Path
 
 from ..errors import MeshReadError
@@ -43,10 +44,11 @@ def sweep(
     engine = (
         local(todo, n_workers or usable_processors()) if scheduler is None else on_cluster(todo, scheduler)
     )
-    for done, new in enumerate(engine, 1):
-        sheet.add(new)
-        rows += new
-        progress(f"planned {done} of {len(todo)} meshes")
+    with closing(engine):  # whatever is raised here ends the workers
+        for done, new in enumerate(engine, 1):
+            sheet.add(new)
+            rows += new
+            progress(f"planned {done} of {len(todo)} meshes")
     by_key = {key_of(row): row for row in rows}
     return [by_key[one.key(n)] for one in jobs for n in one.block_sizes]
 

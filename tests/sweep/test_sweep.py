@@ -18,8 +18,9 @@ from bsgplan.cli import main
 from bsgplan.errors import InvalidOption, MeshReadError, OutputError
 from bsgplan.sweep import sweep
 from bsgplan.sweep.engine import local
-from bsgplan.sweep.job import COLUMNS, Options, job, plan_rows
+from bsgplan.sweep.job import COLUMNS, Options, job
 from bsgplan.sweep.table import DIED
+from bsgplan.sweep.work import plan_rows
 
 CASES = Path(__file__).parents[2] / "cases"
 
@@ -246,6 +247,19 @@ def test_no_scheduler_is_an_error_of_one_line(folder: Path, monkeypatch: pytest.
     with pytest.raises(InvalidOption, match="no scheduler answers"):
         sweep([str(folder / "square.msh")], folder / "s.csv", scheduler="tcp://127.0.0.1:1")
     assert time.monotonic() - start < 60
+
+
+def test_a_row_tells_what_was_warned_of(meshes: Path) -> None:
+    rows = plan_rows(job(str(meshes / "hanging_nodes.mesh"), (4, 16), Options(split_quads=True)))
+    assert [row["error"] for row in rows] == ["", ""]
+    assert [row["warnings"].startswith("4 hanging nodes (12, 14, 16, 18, from 0)") for row in rows] == [
+        True
+    ] * 2
+    (row,) = plan_rows(job(str(meshes / "shinnecock_inlet.fort.14"), (64,), Options()))
+    assert row["warnings"].startswith("the coordinates look like degrees")
+    (row,) = plan_rows(job(str(meshes / "hanging_nodes.mesh"), (4,), Options()))
+    assert row["warnings"] == ""
+    assert row["error"].startswith("no triangles")
 
 
 def test_rows_of_a_job_are_plain_text(folder: Path) -> None:
