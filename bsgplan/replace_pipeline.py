@@ -11,7 +11,7 @@ from shapely.geometry.base import BaseGeometry
 
 from .arrays import Bools, Ints
 from .io import MeshFile
-from .io.whole import REGION_ARRAYS
+from .io.whole import MATERIAL_ARRAYS
 from .mesh.edges import edge_numbers
 from .pipeline import size_of, triangles_in
 from .regions.labels import connected
@@ -21,9 +21,6 @@ from .remesh.accept import Terms
 from .remesh.graft import Graft
 from .remesh.replace import EFFORT, SEED
 from .replace_result import ReplacedMesh
-
-MATERIALS = (*REGION_ARRAYS, "region")
-"""Cell arrays of whole numbers that tell materials apart: the edges between them stay."""
 
 
 def replace_in(
@@ -36,11 +33,13 @@ def replace_in(
     effort: int = EFFORT,
     seed: int = SEED,
     progress: Callable[[str, float], None] = lambda _, __: None,
+    is_stopped: Callable[[], bool] = lambda: False,
 ) -> ReplacedMesh:
     """Return a mesh file with parts of its mesh replaced where that pays.
 
     region is a polygon in the coordinates of the file; without one the whole mesh is tried, and told by the
-    regions of its size field. Boundaries, edges between materials, points of named groups and of quads stay.
+    regions of its size field. is_stopped ends the annealing early where it gives True. Boundaries, edges
+    between materials, points of named groups and of quads stay.
     Raises what its steps raise.
     """
     progress("measuring sizes", 0.0)
@@ -63,6 +62,7 @@ def replace_in(
         effort=effort,
         seed=seed,
         progress=progress,
+        is_stopped=is_stopped,
     )
     return ReplacedMesh(mesh_file, replacement, regrafted(mesh_file, replacement.graft))
 
@@ -72,7 +72,7 @@ def fixed_edges(mesh_file: MeshFile) -> Bools:
     topology = mesh_file.mesh.topology
     pair, is_inside = topology.edge_cells, ~topology.is_boundary_edge
     result = np.zeros(len(topology.edges), dtype=bool)
-    for name in MATERIALS:
+    for name in MATERIAL_ARRAYS:
         values = mesh_file.cell_data.get(name)
         if values is not None and values.ndim == 1 and np.array_equal(values, np.rint(values)):
             result |= values[pair[:, 0]] != values[pair[:, 1]]

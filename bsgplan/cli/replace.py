@@ -74,7 +74,7 @@ def replace(
     from ..result import dumps
     from .info import open_mesh
     from .output import check_writable, show
-    from .progress import bar
+    from .progress import bar, interruptible
 
     polygon = None if region is None else parse_region(region)
     if output is not None:
@@ -82,7 +82,7 @@ def replace(
     if figure is not None:
         check_figure_suffix(figure)
     check_writable(output, save, figure, sources=(file, size_file))
-    with bar() as progress:
+    with bar() as progress, interruptible() as is_stopped:
         progress("reading", 0.0)
         result = replace_in(
             open_mesh(file, is_lonlat=lonlat, split_quads=split_quads),
@@ -93,6 +93,7 @@ def replace(
             effort=effort,
             seed=seed,
             progress=progress,
+            is_stopped=is_stopped,
         )
         progress("writing", 1.0)
         for path, write in ((output, result.write), (save, result.save), (figure, result.figure)):
@@ -102,6 +103,9 @@ def replace(
         sys.stdout.write(dumps(result.document()))
     else:
         show(result.tables())
+    if is_stopped():
+        sys.stdout.flush()
+        raise KeyboardInterrupt
 
 
 def check_options(min_quality: float | None, tolerance: float, effort: int, seed: int) -> None:

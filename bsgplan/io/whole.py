@@ -70,6 +70,9 @@ def whole_mesh(mesh_file: MeshFile) -> WholeMesh:
 REGION_ARRAYS = ("gmsh:physical", "material", "medit:ref", "attribute", "tag", "netgen:index")
 """What formats call the number of the region (material, physical group) that a cell belongs to."""
 
+MATERIAL_ARRAYS = (*REGION_ARRAYS, "region")
+"""Cell arrays that tell materials apart: also what bsgplan itself calls them."""
+
 
 @dataclass(frozen=True, eq=False)
 class CellRegions:

@@ -18,7 +18,8 @@ from ..io.gmsh_write import write_msh22, write_msh41
 from ..io.hyteg_write import write_hyteg
 from ..io.pos_write import write_pos
 from ..io.vtm_write import write_arrays, write_vtm
-from .features import REGIONS, region_array
+from ..io.whole import MATERIAL_ARRAYS
+from .features import region_array
 from .tracks import find_tracks
 
 
@@ -37,7 +38,8 @@ def _groups_only(write: Callable[[MeshFile, Path], None]) -> Callable[[MeshFile,
     """Return a writer of points, groups and point arrays: meshio reads no data of cells in groups."""
 
     def written(mesh_file: MeshFile, path: Path) -> None:
-        array = region_array(mesh_file) or next((n for n in REGIONS if n in mesh_file.cell_data), None)
+        there = (name for name in MATERIAL_ARRAYS if name in mesh_file.cell_data)
+        array = region_array(mesh_file) or next(there, None)
         kept = {} if array is None else {array: mesh_file.cell_data[array]}
         if array == "region":  # the writers know it by Gmsh's name
             kept = {"gmsh:physical": mesh_file.cell_data[array]}

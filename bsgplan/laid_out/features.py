@@ -12,16 +12,12 @@ from ..arrays import Bools, Ints
 from ..errors import InvalidOption
 from ..io import MeshFile
 from ..io.boundary import labels
-from ..io.whole import REGION_ARRAYS
+from ..io.whole import MATERIAL_ARRAYS
 from ..sizing import SizeField
 from .barriers import barrier_pairs
 from .tracks import changes, find_tracks
 
 log = logging.getLogger("bsgplan")
-
-REGIONS = (*REGION_ARRAYS, "region", "netgen:index")
-"""Cell arrays of whole numbers that tell materials apart; the first one that does counts."""
-
 
 SMALLEST_REGION = 4
 """Interfaces are followed where half of the regions, or more, have room for this many blocks."""
@@ -88,8 +84,8 @@ def find_features(
 
 
 def region_array(mesh_file: MeshFile) -> str | None:
-    """Return the name of the first cell array of `REGIONS` with more than one whole number, or None."""
-    for name in REGIONS:
+    """Return the first cell array of `MATERIAL_ARRAYS` with more than one whole number, or None."""
+    for name in MATERIAL_ARRAYS:
         values = mesh_file.cell_data.get(name)
         if values is not None and values.ndim == 1 and np.isfinite(values).all():
             found = np.unique(values)

@@ -65,6 +65,20 @@ def sequences(profile: Profile, side: float, *, least: int = 1) -> list[tuple[in
     return list(found)
 
 
+def followed(profile: Profile, fine: int, coarse: int, *, least: int = 1) -> list[tuple[int, ...]]:
+    """Return sequences of front counts for a profile whose ends are given: a rim imposes them, s is 1.
+
+    One for each price of irregular vertices, on the strips just under and over the layers.
+    """
+    n_strips = sorted({max(1, int(np.floor(profile.layers))), max(1, int(np.ceil(profile.layers)))})
+    found: dict[tuple[int, ...], None] = {}
+    for n in n_strips:
+        wanted = np.maximum(block_counts(profile, 1.0, n), least)
+        for price in PRICES:
+            found[_best_sequence(wanted, price, least, ends=(fine, coarse))] = None
+    return list(found)
+
+
 def searched(profile: Profile, side: float, *, is_closed: bool) -> dict[tuple[int, ...], float]:
     """Return the best sequences from end to end over the length, and their straight mean ratio.
 
@@ -139,9 +153,13 @@ def _whole(wanted: Floats, least: int) -> tuple[int, ...]:
     return tuple(int(n) for n in np.maximum(least, np.rint(wanted)))
 
 
-def _best_sequence(wanted: Floats, price: float, least: int) -> tuple[int, ...]:
+def _best_sequence(
+    wanted: Floats, price: float, least: int, *, ends: tuple[int, int] | None = None
+) -> tuple[int, ...]:
     """Return the cheapest sequence near wanted, by dynamic programming over pairs of fronts."""
     choices = [_choices(t, least) for t in wanted]
+    if ends is not None:
+        choices[0], choices[-1] = (np.array([end]) for end in ends)
     fits = [(np.log(c / t) / TOLERANCE) ** 2 for c, t in zip(choices, wanted, strict=True)]
     first, second = choices[0], choices[1]
     cost = fits[0][:, None] + fits[1][None, :] + _strip_cost(first, second)

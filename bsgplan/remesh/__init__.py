@@ -1,5 +1,6 @@
 """Parts of existing meshes replaced, far fewer irregular vertices in them: NOUN Replacement, VERB replace."""
 
-from .replace import Replacement, replace
+from .replace import replace
+from .replacement import Replacement
 
 __all__ = ["Replacement", "replace"]

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from .measures import Measures
 
 LEAST_GAIN = 0.2
-"""A part is replaced only for so large a share of its irregular vertices: less is chance, and another run
-would do it again."""
+"""A part is replaced only for so large a share of its n irregular vertices, and for sqrt(n) of them: less is
+chance, and another run would do it again."""
 
 QUALITY_LOSS = 0.02
 """The worst triangle may lose so much."""
@@ -30,7 +30,8 @@ class Terms:
 def gains(before: Measures, after: Measures) -> bool:
     """Return True where enough irregular vertices go, some of them inside."""
     gone = _irregular(before) - _irregular(after)
-    is_enough = gone >= max(1.0, LEAST_GAIN * _irregular(before))
+    n = _irregular(before)
+    is_enough = gone >= max(1.0, LEAST_GAIN * n, n**0.5)
     return is_enough and after.irregular_interior < before.irregular_interior
 
 

@@ -11,12 +11,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import Floats
-from ..blocks.anneal import POLISH
-from ..blocks.cooling import STAGES, Schedule, cooled
+from ..blocks.cooling import Schedule, cooled
 from ..blocks.placed import PlacedMesh
-from ..blocks.smooth import qualities
+from .by_strips import Tries, with_strips
 from .cut import Cut
 from .mend import mended
+from .polish import polished
+from .restore import restored
+from .wish import Wish
 
 SCHEDULE = Schedule(
     hot=0.35, cold=0.03, moves=2, steered=9, gain=0.3, most_shift=0.2, most_size_weight=2.0, first_shift=-0.05
@@ -26,17 +28,21 @@ SCHEDULE = Schedule(
 SMALL, MOST_FOLD = 16_000, 4.0
 """Parts of fewer triangles get sqrt(SMALL / triangles) times the sweeps, at most MOST_FOLD times."""
 
+STRIPS = 0.5
+"""Share of the sweeps that strips get: they have little to forget."""
 
-@dataclass(frozen=True)
-class Wish:
-    """What the annealing steers to."""
+MAIN = 0.7
+"""Share of the time that the annealing of the part's own triangles takes, for the progress bar."""
 
-    n_triangles: float
-    """Triangles wanted."""
-    size_misfit: float
-    """rms of log(edge / wanted edge) that the part has now."""
-    quality: float = 0.0
-    """Triangles under this mean ratio are mended."""
+
+@dataclass(frozen=True, eq=False)
+class Remeshed:
+    """A part annealed."""
+
+    mesh: PlacedMesh
+    """The mesh, its rim as it was, every triangle positive."""
+    strips: Tries
+    """What came of strips in it."""
 
 
 def remeshed(
@@ -44,31 +50,42 @@ def remeshed(
     log_size: Floats,
     wish: Wish,
     *,
-    effort: int,
+    n_sweeps: int,
     seed: int,
     progress: Callable[[str, float], None] = lambda _, __: None,
-) -> PlacedMesh:
+    is_stopped: Callable[[], bool] = lambda: False,
+) -> Remeshed:
     """Return the part with few irregular vertices, its rim as it was, every triangle positive.
 
-    log_size is the log of the wanted edge at the domain's points, in its unit. effort is the number of sweeps
-    for SMALL triangles. progress hears of the irregular vertices and the share of the work done.
+    log_size is the log of the wanted edge at the domain's points, in its unit. progress hears of the
+    irregular vertices and the share of the work done. is_stopped is asked before every sweep; from a True on
+    there is a quench and a polish, no more.
     """
-    n = n_sweeps(len(cut.start.triangles), effort)
-    n_stages = min(STAGES, n)
     end = cooled(
         cut.domain,
         cut.start,
         log_size,
         SCHEDULE,
-        n_sweeps=n,
+        n_sweeps=n_sweeps,
         n_wanted=wish.n_triangles,
         rms_wanted=max(wish.size_misfit, 1e-6),
         bend_weight=0.0,
         seed=seed,
-        progress=lambda text, share: progress(text, share * n_stages / (n_stages + 1)),
+        progress=lambda text, share: progress(text, share * MAIN),
+        is_stopped=is_stopped,
     )
-    mesh = polished(cut, end.mesh, log_size, size_weight=end.size_weight, offset=end.offset)
-    return mended(cut.domain, mesh, log_size, wish.quality, seed=seed, offset=end.offset)
+    mesh = polished(cut.domain, end.mesh, log_size, size_weight=end.size_weight, offset=end.offset)
+    mesh, strips = with_strips(
+        cut.domain, mesh, log_size, wish,
+        n_sweeps=max(1, round(STRIPS * n_sweeps)), seed=seed,
+        progress=lambda text, share: progress(text, MAIN + share * (1 - MAIN)), is_stopped=is_stopped,
+    )  # fmt: skip
+    if not is_stopped():
+        mesh = mended(cut.domain, mesh, log_size, wish.least, seed=seed, offset=end.offset)
+        mesh = restored(
+            cut.domain, cut.start, mesh, log_size, wish.floor, seed=seed, offset=end.offset
+        )  # fmt: skip
+    return Remeshed(mesh, strips)
 
 
 def n_sweeps(n_triangles: int, effort: int) -> int:
@@ -78,18 +95,3 @@ def n_sweeps(n_triangles: int, effort: int) -> int:
     (30, 120)
     """
     return max(1, round(effort * float(np.clip(np.sqrt(SMALL / n_triangles), 1.0, MOST_FOLD))))
-
-
-def polished(
-    cut: Cut, mesh: PlacedMesh, log_size: Floats, *, size_weight: float, offset: float
-) -> PlacedMesh:
-    """Return the mesh with its vertices moved, more and more for its worst triangle; sizes as they weigh."""
-    from ..blocks.kernel.exchange import load, unload
-    from ..blocks.kernel.schedule import polish
-
-    state = load(
-        cut.domain, mesh, log_size, room=1.0, size_weight=size_weight, bend_weight=0.0, offset=offset
-    )
-    polish(state, POLISH)
-    moved = unload(state)
-    return moved if qualities(moved).min() > qualities(mesh).min() else mesh

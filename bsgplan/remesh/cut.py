@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..arrays import Bools, Floats, Ints, sums_by
-from ..blocks.domain import Domain, domain_of
+from ..blocks.domain import Domain, domain_of, unfolded
 from ..blocks.kinds import FROZEN, FROZEN_SIDE
 from ..blocks.placed import PlacedMesh, place
 from ..mesh import Mesh
@@ -32,6 +32,8 @@ class Cut:
     """The part's own triangulation on that domain, what may not change frozen."""
     point: Ints
     """Point of the whole mesh that each point of the domain is, (n_domain_points,)."""
+    triangle: Ints
+    """Triangle of the whole mesh that each triangle of the domain is, (n_domain_triangles,)."""
 
     @property
     def is_frozen(self) -> Bools:
@@ -57,7 +59,8 @@ def cut(
     kept = None if fixed_points is None else np.flatnonzero(np.isin(used, fixed_points))
     domain = domain_of(part, interfaces=interfaces, kept=kept)
     point = used[domain.source]
-    return Cut(mesh, is_inside, domain, _frozen(mesh, domain, point), point)
+    own = np.flatnonzero(is_inside)[unfolded(part)]
+    return Cut(mesh, is_inside, domain, _frozen(mesh, domain, point), point, own)
 
 
 def fitting_valence(mesh: Mesh) -> Floats:

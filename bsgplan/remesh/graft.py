@@ -67,14 +67,13 @@ def graft(mesh: Mesh, parts: Sequence[tuple[Cut, PlacedMesh]]) -> Graft:
         number[~is_new] = new_index[part.point[part.is_frozen]]
         number[is_new] = n_points + np.arange(np.count_nonzero(is_new))
         n_points += int(np.count_nonzero(is_new))
-        own = np.flatnonzero(part.is_inside)
         found, share = _located(part, placed.points[is_new], placed.hints[is_new])
         centroids = placed.points[placed.triangles].mean(axis=1)
         points.append(part.domain.to_mesh(placed.points[is_new]))
         triangles.append(number[placed.triangles])
         corners.append(part.point[part.domain.triangles[found, :3]])
         shares.append(share)
-        source.append(own[_located(part, centroids, placed.hints[placed.triangles[:, 0]])[0]])
+        source.append(part.triangle[_located(part, centroids, placed.hints[placed.triangles[:, 0]])[0]])
     return Graft(
         Mesh(np.concatenate(points), np.concatenate(triangles)),
         new_index,

@@ -1,11 +1,12 @@
 """Poor spots of an annealed part annealed again, each by itself, its rim frozen: what chance left there.
 
-The same mesh comes back but for the patches around triangles under a least quality, and a patch is exchanged
-only for one whose worst triangle is better.
+The same mesh comes back but for the patches around triangles under the least quality wanted where they are,
+and a patch is exchanged only for one whose worst triangle is better.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -46,23 +47,35 @@ class Patch:
 
 
 def mended(
-    domain: Domain, mesh: PlacedMesh, log_size: Floats, least: float, *, seed: int, offset: float
+    domain: Domain, mesh: PlacedMesh, log_size: Floats, least: Floats, *, seed: int, offset: float
 ) -> PlacedMesh:
-    """Return a mesh whose triangles under the mean ratio least were tried to be made better.
+    """Return a mesh whose triangles under a mean ratio were tried to be made better.
 
-    log_size is the log of the wanted edge at the domain's points, offset what is added to it.
+    least is that ratio in each triangle of the domain, (n_domain_triangles,). log_size is the log of the
+    wanted edge at the domain's points, offset what is added to it.
     """
     for turn, (n_rings, weight) in enumerate(TURNS):
-        spots = _spots(mesh, least, n_rings)
-        if not len(spots):
-            break
-        for number, centre in enumerate(spots):
-            inside = _around(mesh, centre, n_rings)
-            patch = patch_of(mesh, inside)
-            made = _annealed(domain, patch.mesh, log_size, seed + 1000 * turn + number, offset, weight)
-            if qualities(made).min() > qualities(mesh)[inside].min():
-                mesh = spliced(mesh, patch, made)
+        better = []
+        for number, centre in enumerate(spots(mesh, lacks(domain, mesh, least), n_rings)):
+            patch = patch_of(mesh, around(mesh, centre, n_rings))
+            made = annealed(domain, patch.mesh, log_size, seed + 1000 * turn + number, offset, weight)
+            if lacks(domain, made, least).max() < lacks(domain, patch.mesh, least).max():
+                better.append((patch, made))
+        mesh = spliced(mesh, better)
     return mesh
+
+
+def lacks(domain: Domain, mesh: PlacedMesh, least: Floats) -> Floats:
+    """Return how far each triangle is under the mean ratio wanted where it lies, (n_triangles,)."""
+    return np.asarray(least[holders(domain, mesh)] - qualities(mesh))
+
+
+def holders(domain: Domain, mesh: PlacedMesh) -> Ints:
+    """Return the triangle of the domain that holds the centroid of each triangle, (n_triangles,)."""
+    from ..blocks.kernel.walk import locate
+
+    centroids = mesh.points[mesh.triangles].mean(axis=1)
+    return locate(domain.points, domain.triangles, centroids, mesh.hints[mesh.triangles[:, 0]])[0]
 
 
 def patch_of(mesh: PlacedMesh, inside: Bools) -> Patch:
@@ -90,39 +103,46 @@ def patch_of(mesh: PlacedMesh, inside: Bools) -> Patch:
     return Patch(inside, apart, source)
 
 
-def spliced(mesh: PlacedMesh, patch: Patch, made: PlacedMesh) -> PlacedMesh:
-    """Return the mesh with a patch replaced by what was made of it; vertices that stay keep their order."""
-    frozen = patch.source[patch.mesh.kinds == FROZEN]
+def spliced(mesh: PlacedMesh, parts: Sequence[tuple[Patch, PlacedMesh]]) -> PlacedMesh:
+    """Return the mesh with patches replaced by what was made of them; vertices that stay keep their order.
+
+    No two patches have a triangle in common.
+    """
+    if not parts:
+        return mesh
+    outside = ~np.any([patch.inside for patch, _ in parts], axis=0)
     stays = np.zeros(len(mesh.points), dtype=bool)
-    stays[mesh.triangles[~patch.inside]] = True
-    stays[frozen] = True
+    stays[mesh.triangles[outside]] = True
+    for patch, _ in parts:
+        stays[patch.source[patch.mesh.kinds == FROZEN]] = True
     number = np.where(stays, np.cumsum(stays) - 1, -1)
-    is_new = made.kinds != FROZEN
-    index = np.empty(len(made.points), dtype=np.int64)
-    index[~is_new] = number[frozen]
-    index[is_new] = np.count_nonzero(stays) + np.arange(np.count_nonzero(is_new))
-    outside = ~patch.inside
+    n = int(np.count_nonzero(stays))
+    triangles, codes, new = [number[mesh.triangles[outside]]], [mesh.codes[outside]], []
+    for patch, made in parts:
+        is_new = made.kinds != FROZEN
+        index = np.empty(len(made.points), dtype=np.int64)
+        index[~is_new] = number[patch.source[patch.mesh.kinds == FROZEN]]
+        index[is_new] = n + np.arange(np.count_nonzero(is_new))
+        n += int(np.count_nonzero(is_new))
+        triangles.append(index[made.triangles])
+        codes.append(np.where(made.codes == FROZEN_SIDE, -1, made.codes))
+        new.append(is_new)
 
     def joined(name: str) -> np.ndarray:
-        return np.concatenate([getattr(mesh, name)[stays], getattr(made, name)[is_new]])
+        own = [getattr(made, name)[is_new] for (_, made), is_new in zip(parts, new, strict=True)]
+        return np.concatenate([getattr(mesh, name)[stays], *own])
 
-    codes = made.codes.copy()
-    codes[codes == FROZEN_SIDE] = -1
-    triangles = np.concatenate([number[mesh.triangles[outside]], index[made.triangles]])
-    return _with_codes(
-        mesh,
-        PlacedMesh(
-            points=joined("points"),
-            triangles=triangles,
-            codes=np.concatenate([mesh.codes[outside], codes]),
-            kinds=joined("kinds"),
-            curves=joined("curves"),
-            arcs=joined("arcs"),
-            goals=joined("goals"),
-            hints=joined("hints"),
-        ),
-        number,
+    whole = PlacedMesh(
+        points=joined("points"),
+        triangles=np.concatenate(triangles),
+        codes=np.concatenate(codes),
+        kinds=joined("kinds"),
+        curves=joined("curves"),
+        arcs=joined("arcs"),
+        goals=joined("goals"),
+        hints=joined("hints"),
     )
+    return _with_codes(mesh, whole, number)
 
 
 def _with_codes(old: PlacedMesh, new: PlacedMesh, number: Ints) -> PlacedMesh:
@@ -137,9 +157,10 @@ def _with_codes(old: PlacedMesh, new: PlacedMesh, number: Ints) -> PlacedMesh:
     return replace(new, codes=codes)
 
 
-def _annealed(
+def annealed(
     domain: Domain, mesh: PlacedMesh, log_size: Floats, seed: int, offset: float, valence_weight: float
 ) -> PlacedMesh:
+    """Return a patch annealed by itself, for its worst triangle more than for its valences."""
     from ..blocks.kernel.exchange import load, unload
     from ..blocks.kernel.schedule import cool, falling, polish
     from ..blocks.kernel.state import POWER, VALENCES
@@ -153,13 +174,15 @@ def _annealed(
     return unload(state)
 
 
-def _spots(mesh: PlacedMesh, least: float, n_rings: int) -> Floats:
-    """Return the centroid of the worst triangle of each patch to be mended, the worst first, (k, 2)."""
-    quality = qualities(mesh)
-    poor = np.flatnonzero(quality < least)
+def spots(mesh: PlacedMesh, lack: Floats, n_rings: int) -> Floats:
+    """Return the centroid of the worst triangle of each patch to be mended, the worst first, (k, 2).
+
+    lack is how far each triangle is under what is wanted, (n_triangles,).
+    """
+    poor = np.flatnonzero(lack > 0)
     if not len(poor):
         return np.empty((0, 2))
-    near = grown(mesh, quality < least, n_rings)
+    near = grown(mesh, lack > 0, n_rings)
     chosen = np.flatnonzero(near)
     place = np.full(len(near), -1)
     place[chosen] = np.arange(len(chosen))
@@ -167,13 +190,13 @@ def _spots(mesh: PlacedMesh, least: float, n_rings: int) -> Floats:
     pair = place[pair[near[pair].all(axis=1)]]
     graph = coo_array((np.ones(len(pair)), (pair[:, 0], pair[:, 1])), shape=(len(chosen), len(chosen)))
     spot = connected_components(graph, directed=False)[1][place[poor]]
-    order = np.argsort(quality[poor], kind="stable")
+    order = np.argsort(-lack[poor], kind="stable")
     _, first = np.unique(spot[order], return_index=True)
     worst = poor[order[np.sort(first)]][:MOST_SPOTS]
     return np.asarray(mesh.points[mesh.triangles[worst]].mean(axis=1))
 
 
-def _around(mesh: PlacedMesh, centre: Floats, n_rings: int) -> Bools:
+def around(mesh: PlacedMesh, centre: Floats, n_rings: int) -> Bools:
     """Return the triangles within so many rings of the one nearest to a place."""
     middles = mesh.points[mesh.triangles].mean(axis=1)
     start = np.zeros(len(middles), dtype=bool)

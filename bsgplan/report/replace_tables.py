@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
+from ..arrays import Floats
 from ..remesh import Replacement
 from ..remesh.measures import Measures
-from ..remesh.replace import Part
+from ..remesh.replacement import Part
 from .rows import plain_irregularity
 from .table import QUALITY, Column, Table, Value
 
@@ -19,15 +20,33 @@ MOST_REGIONS = 20
 def tables(replacement: Replacement) -> list[Table]:
     """Return the tables of a replacement: in total, its regions, and the parts that were left alone."""
     regions = list(replacement.regions())
+    is_told_by_regions = len(regions) > 1 or bool((replacement.label < 0).any())
     alone = [part for part in replacement.parts if part.reason]
     return [
-        total_table(*replacement.totals()),
-        *([regions_table(regions)] if len(regions) > 1 or (replacement.label < 0).any() else []),
+        total_table(*replacement.totals(), notes=notes(replacement)),
+        *([regions_table(regions, replacement.charges())] if is_told_by_regions else []),
         *([parts_table(alone)] if alone else []),
     ]
 
 
-def total_table(before: Measures, after: Measures) -> Table:
+def notes(replacement: Replacement) -> tuple[str, ...]:
+    """Return the budget of irregular vertices, and what strips of fronts had to do with the result."""
+    charges = replacement.charges()
+    up, down = (float(charges[sign * charges > 0].sum()) for sign in (1, -1))
+    told = [
+        f"budget of the size inside its regions: iota {up:+.1f} and {down:+.1f}; the boundary's angles alone "
+        f"leave no fewer than {replacement.floor()} irregular inside"
+    ]
+    tried = sum(part.strips.tried for part in replacement.parts)
+    kept = sum(part.strips.kept for part in replacement.parts if not part.reason)
+    if replacement.is_interrupted:
+        told.append("stopped early")
+    if tried:
+        told.append(f"strips of fronts were tried in {tried} regions and ended better in {kept}")
+    return tuple(told)
+
+
+def total_table(before: Measures, after: Measures, notes: tuple[str, ...] = ()) -> Table:
     """Return one row a measure of the whole mesh."""
     rows: list[tuple[Value, ...]] = [
         (name, a, b, _change(a, b))
@@ -54,10 +73,10 @@ def total_table(before: Measures, after: Measures) -> Table:
         Column("after", "", ".3f"),
         Column("change"),
     )
-    return Table("", columns, tuple(rows))
+    return Table("", columns, tuple(rows), notes)
 
 
-def regions_table(regions: list[tuple[int, Measures, Measures]]) -> Table:
+def regions_table(regions: list[tuple[int, Measures, Measures]], charges: Floats) -> Table:
     """Return one row a region, the most irregular first."""
     columns = (
         Column("region"),
@@ -65,6 +84,7 @@ def regions_table(regions: list[tuple[int, Measures, Measures]]) -> Table:
         Column("after"),
         Column("irregular"),
         Column("after"),
+        Column("budget", "", "+.1f"),
         Column("iota+"),
         Column("after"),
         Column("q_min", "", QUALITY),
@@ -77,6 +97,7 @@ def regions_table(regions: list[tuple[int, Measures, Measures]]) -> Table:
         (
             str(k),
             *(a.n_triangles, b.n_triangles, a.irregular_interior, b.irregular_interior),
+            float(charges[k]),
             *(a.irregularity.positive, b.irregularity.positive),
             *(a.q_min, b.q_min, a.size_misfit, b.size_misfit),
         )
@@ -95,19 +116,28 @@ def parts_table(parts: list[Part]) -> Table:
 def document(mesh: dict[str, Any], replacement: Replacement) -> dict[str, Any]:
     """Return the JSON document: before and after in total, by regions, and the parts tried."""
     before, after = replacement.totals()
+    charges = replacement.charges()
     return {
         "schema": SCHEMA,
         "mesh": mesh,
         "before": plain(before),
         "after": plain(after),
+        "budget": {
+            "positive": float(charges[charges > 0].sum()),
+            "negative": float(charges[charges < 0].sum()),
+            "floor": replacement.floor(),
+        },
         "regions": [
-            {"region": k, "before": plain(a), "after": plain(b)} for k, a, b in replacement.regions()
+            {"region": k, "budget": float(charges[k]), "before": plain(a), "after": plain(b)}
+            for k, a, b in replacement.regions()
         ],
+        "is_interrupted": replacement.is_interrupted,
         "parts": [
             {
                 "name": part.name,
                 "is_replaced": not part.reason,
                 "reason": part.reason or None,
+                "strips": vars(part.strips),
                 "before": plain(part.before),
                 "after": plain(part.after),
             }

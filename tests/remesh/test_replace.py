@@ -13,11 +13,13 @@ from strategies import meshes as random_meshes
 import bsgplan
 from bsgplan.mesh import Mesh
 from bsgplan.remesh.accept import Terms, refusal
-from bsgplan.remesh.anneal import Wish, remeshed
+from bsgplan.remesh.anneal import remeshed
 from bsgplan.remesh.cut import cut
 from bsgplan.remesh.graft import graft
 from bsgplan.remesh.measures import Measures, measured
-from bsgplan.remesh.replace import Replacement, replace
+from bsgplan.remesh.replace import replace
+from bsgplan.remesh.replacement import Replacement
+from bsgplan.remesh.wish import Wish
 from bsgplan.sizing import size_field
 
 
@@ -42,7 +44,9 @@ def test_the_rim_stays_also_where_the_result_would_be_refused(mesh: Mesh, seed: 
     inside[0] = True
     part = cut(mesh, inside)
     log_size = size.log_h[part.point] - np.log(part.domain.scale)
-    placed = remeshed(part, log_size, Wish(np.count_nonzero(inside) * 1.5, 0.1), effort=2, seed=seed % 1000)
+    n = len(part.triangle)
+    wish = Wish(n * 1.5, 0.1, np.zeros(n, np.int64), np.zeros(n), np.zeros(n))
+    placed = remeshed(part, log_size, wish, n_sweeps=2, seed=seed % 1000).mesh
     label = np.where(inside, 0, -1)
     result = Replacement(size, graft(mesh, [(part, placed)]), label, ())
     fewest = Replacement(size, graft(mesh, []), label, ())

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import json
+import os
+import signal
+import time
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +14,7 @@ import pytest
 import bsgplan
 from bsgplan.cli import main
 from bsgplan.io.read import read_lonlat
+from bsgplan.remesh import replace
 
 CASE = Path(__file__).resolve().parents[2] / "cases" / "transition" / "mesh.msh"
 REGION = "0.2,0.1,1,0.9"
@@ -33,6 +37,9 @@ def test_the_document_tells_before_and_after(done: Path) -> None:
         assert {"n_triangles", "irregular_interior", "irregular_boundary", "q_min", "q_mean"} <= set(measures)
         assert set(measures["irregularity"]) >= {"positive", "negative"}
     assert document["parts"][0]["is_replaced"]
+    assert document["is_interrupted"] is False
+    assert document["parts"][0]["strips"]["tried"] == 1
+    assert document["budget"]["positive"] + document["budget"]["negative"] == pytest.approx(region["budget"])
 
 
 def test_what_is_outside_stays_and_groups_are_kept(done: Path) -> None:
@@ -95,3 +102,50 @@ def test_what_is_refused_is_told(capsys: pytest.CaptureFixture[str]) -> None:
     words = ["--region", "0.2,0.1,0.5,0.4", "--effort", "2", "--min-quality", "0.999"]
     assert main(["replace", str(CASE), *words]) == 0
     assert "asked for" in capsys.readouterr().out
+
+
+def interrupted(monkeypatch: pytest.MonkeyPatch, n_times: int) -> list[float]:
+    """Let n Ctrl-C arrive after the first stage of the annealing; return the list of shares it tells."""
+    shares: list[float] = []
+
+    def replace_with_signals(size, *, progress, **options):
+        def told(text: str, share: float) -> None:
+            progress(text, share)
+            shares.append(share)
+            for _ in range(n_times if len(shares) == 1 else 0):
+                os.kill(os.getpid(), signal.SIGINT)
+                time.sleep(0.01)  # Python runs the handler between two instructions
+
+        return replace(size, progress=told, **options)
+
+    monkeypatch.setattr("bsgplan.replace_pipeline.replace", replace_with_signals)
+    return shares
+
+
+def test_ctrl_c_writes_what_there_is_and_exits_130(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    shares = interrupted(monkeypatch, 1)
+    output = tmp_path / "r.msh"
+    words = ["--region", REGION, "--effort", "60", "--json", "-o", str(output)]
+    assert main(["replace", str(CASE), *words]) == 130
+    told = capsys.readouterr()
+    document = json.loads(told.out)
+    assert told.err.splitlines()[-1] == "interrupted"
+    assert document["is_interrupted"] is True
+    assert len(shares) == 1
+    assert bsgplan.read(output).mesh.n_triangles == document["after"]["n_triangles"]
+    assert document["after"]["q_min"] >= document["before"]["q_min"] - 0.02
+
+
+def test_a_second_ctrl_c_stops_at_once_and_writes_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    before = signal.default_int_handler
+    signal.signal(signal.SIGINT, before)  # a shell starts what runs in the background deaf to Ctrl-C
+    interrupted(monkeypatch, 2)
+    assert main(["replace", str(CASE), "--region", REGION, "-o", str(tmp_path / "r.msh")]) == 130
+    told = capsys.readouterr()
+    assert (told.out, told.err) == ("", "interrupted\n")
+    assert list(tmp_path.iterdir()) == []
+    assert signal.getsignal(signal.SIGINT) is before

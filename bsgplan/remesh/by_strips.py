@@ -1,0 +1,110 @@
+"""Regions of an annealed part tried once more from strips of fronts; the better end of the two is kept.
+
+Strips are a start with few irregular vertices where the counts of the fronts put them; they are annealed at
+a low temperature, which cleans up the gaps without melting the fronts. What is kept has fewer irregular
+vertices, or as many and a better worst triangle, and misses neither size nor number of triangles.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..arrays import Floats
+from ..blocks.cooling import Schedule, cooled, size_rms
+from ..blocks.domain import Domain
+from ..blocks.placed import PlacedMesh
+from ..blocks.smooth import qualities
+from .mend import holders, lacks, patch_of, spliced
+from .polish import polished
+from .strips import stripped
+from .wish import Wish
+
+CLEANUP = Schedule(hot=0.1, cold=0.03, moves=2, steered=9, gain=0.3, most_shift=0.2, most_size_weight=2.0)
+"""How strips are annealed: from a lower temperature than a mesh of chance."""
+
+FEWEST = 4
+"""A region with fewer irregular vertices, rim included, has nothing to gain: two fronts of the simplest
+transition have as many."""
+
+
+@dataclass(frozen=True)
+class Tries:
+    """What came of strips."""
+
+    tried: int = 0
+    """Regions with a clear transition, in which strips were laid."""
+    kept: int = 0
+    """Those that ended better than without."""
+
+
+def with_strips(
+    domain: Domain,
+    mesh: PlacedMesh,
+    log_size: Floats,
+    wish: Wish,
+    *,
+    n_sweeps: int,
+    seed: int,
+    progress: Callable[[str, float], None] = lambda _, __: None,
+    is_stopped: Callable[[], bool] = lambda: False,
+) -> tuple[PlacedMesh, Tries]:
+    """Return a mesh laid out in strips where that ends better, all of it or by regions, and how often it did.
+
+    log_size is the log of the wanted edge at the domain's points, n_sweeps what each region gets.
+    Regions are those of the wish. progress hears of the share of them done.
+    """
+    tried = kept = 0
+    label = wish.label[holders(domain, mesh)]
+    n_own = np.bincount(wish.label)
+    whole = [] if len(n_own) == 1 else [np.ones(len(n_own), dtype=bool)]
+    for number, chosen in enumerate([*whole, *np.eye(len(n_own), dtype=bool)]):
+        if is_stopped():
+            break
+        progress("strips", number / (len(n_own) + 1))
+        inside = chosen[label]
+        if not inside.any():
+            continue
+        patch = patch_of(mesh, inside)
+        if np.count_nonzero(patch.mesh.is_irregular) < FEWEST:
+            continue
+        start = stripped(patch.mesh, _at(domain, log_size, patch.mesh), is_searched=len(n_own) == 1)
+        if start is None:
+            continue
+        tried += 1
+        n_wanted = wish.n_triangles * n_own[chosen].sum() / len(wish.label)
+        made = cooled(
+            domain, start, log_size, CLEANUP,
+            n_sweeps=n_sweeps, n_wanted=n_wanted, rms_wanted=wish.size_misfit,
+            bend_weight=0.0, seed=seed + number, progress=lambda _, __: None, is_stopped=is_stopped,
+        )  # fmt: skip
+        found = polished(domain, made.mesh, log_size, size_weight=made.size_weight, offset=made.offset)
+        if _is_better(domain, found, patch.mesh, log_size, wish, n_wanted):
+            mesh, kept = spliced(mesh, [(patch, found)]), kept + 1
+            label = wish.label[holders(domain, mesh)]
+            if chosen.all():
+                break
+    return mesh, Tries(tried, kept)
+
+
+def _is_better(
+    domain: Domain, made: PlacedMesh, now: PlacedMesh, log_size: Floats, wish: Wish, n_wanted: float
+) -> bool:
+    off = [abs(len(mesh.triangles) / n_wanted - 1) for mesh in (made, now)]
+    lack = [float(lacks(domain, mesh, wish.least).max()) for mesh in (made, now)]
+    if off[0] > max(off[1], wish.tolerance) or lack[0] > max(lack[1], 0.0):
+        return False
+    if size_rms(domain, made, log_size) > max(size_rms(domain, now, log_size), wish.size_misfit):
+        return False
+    n_irregular = [int(np.count_nonzero(mesh.is_irregular)) for mesh in (made, now)]
+    least = [float(qualities(mesh).min()) for mesh in (made, now)]
+    return (n_irregular[0], -least[0]) < (n_irregular[1], -least[1])
+
+
+def _at(domain: Domain, values: Floats, mesh: PlacedMesh) -> Floats:
+    from ..blocks.kernel.walk import locate
+
+    triangle, shares = locate(domain.points, domain.triangles, mesh.points, mesh.hints)
+    return np.asarray((shares * values[domain.triangles[triangle, :3]]).sum(axis=1))
