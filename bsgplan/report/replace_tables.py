@@ -34,15 +34,15 @@ def notes(replacement: Replacement) -> tuple[str, ...]:
     charges = replacement.charges()
     up, down = (float(charges[sign * charges > 0].sum()) for sign in (1, -1))
     told = [
-        f"budget of the size inside its regions: iota {up:+.1f} and {down:+.1f}; the boundary's angles alone "
-        f"leave no fewer than {replacement.floor()} irregular inside"
+        f"budget: the size demands iota {up:+.1f} and {down:.1f} inside its regions",
+        f"floor: the boundary leaves no fewer than {replacement.floor()} irregular vertices inside",
     ]
     tried = sum(part.strips.tried for part in replacement.parts)
     kept = sum(part.strips.kept for part in replacement.parts if not part.reason)
     if replacement.is_interrupted:
         told.append("stopped early")
     if tried:
-        told.append(f"strips of fronts were tried in {tried} regions and ended better in {kept}")
+        told.append(f"strips of fronts: tried in {tried} of the regions, better in {kept}")
     return tuple(told)
 
 
