@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from ..arrays import Bools, Floats, Ints
 from ..errors import MeshReadError
+from .byte_order_mark import skip_mark
 from .number_table import FORTRAN_EXPONENT, first_bad_line, table_of_text, word_starts
 
 CHUNK_BYTES = 2**20
@@ -123,6 +124,7 @@ def chunks(path: Path) -> Iterator[Chunk]:
     """Give the text of a file chunk by chunk; raises MeshReadError where it is no text."""
     first, rest = 1, b""
     with path.open("rb") as stream:
+        skip_mark(stream)
         while piece := stream.read(CHUNK_BYTES):
             if b"\0" in piece:
                 raise MeshReadError(f"binary data after line {first}, not a text; give the text file")

@@ -145,9 +145,9 @@ def assemble(path: str, format: str, raw: RawMesh, projection: Projection | None
     is_own = new_index[used] < 0
     all_index = new_index.copy()
     all_index[used[is_own]] = len(cleaned.kept_points) + np.arange(np.count_nonzero(is_own))
-    n_unused = len(raw.points) - len(
-        np.unique(np.concatenate([cleaned.kept_points, raw.quads.ravel(), raw.midside]))
-    )
+    is_used = new_index >= 0
+    is_used[raw.quads] = is_used[raw.midside] = True
+    n_unused = len(raw.points) - int(np.count_nonzero(is_used))
     n_lost = n_nodes(raw.boundaries) - n_nodes(boundaries)
     n_coincident = _n_coincident(cleaned.mesh.points)
     n_flipped = cleaned.n_flipped
@@ -206,14 +206,16 @@ def check_quads(raw: RawMesh) -> None:
 
 
 def _check_duplicates(mesh: Mesh) -> None:
-    corners = np.sort(mesh.triangles, axis=1)
-    order = np.lexsort(corners.T)
-    is_same = (corners[order][1:] == corners[order][:-1]).all(axis=1)
+    """Raise InvalidMesh where two triangles have the same corners: where they share all of their edges."""
+    topology, own = mesh.topology, np.arange(mesh.n_triangles)
+    both = topology.edge_cells[:, 0] + topology.edge_cells[:, 1]
+    beside = [both[edges] - own for edges in topology.cell_edges.T]
+    is_same = (beside[0] == beside[1]) & (beside[1] == beside[2]) & (beside[0] > own)
     if is_same.any():
         first = int(np.flatnonzero(is_same)[0])
         raise InvalidMesh(
-            f"{np.count_nonzero(is_same)} triangles stand in the file twice, the first {order[first]} and "
-            f"{order[first + 1]}; save each triangle once (one physical group each)"
+            f"{np.count_nonzero(is_same)} triangles stand in the file twice, the first {first} and "
+            f"{beside[0][first]}; save each triangle once (one physical group each)"
         )
 
 
@@ -228,6 +230,9 @@ def quads_apart(raw: RawMesh) -> tuple[Floats, Ints, Ints]:
 
 
 def _n_coincident(points: Floats) -> int:
+    if points.shape[1] == 2:  # complex numbers are sorted in one go, by x and then by y
+        places = np.sort(np.ascontiguousarray(points).view(np.complex128)[:, 0])
+        return int(np.count_nonzero(places[1:] == places[:-1]))
     ordered = points[np.lexsort(points.T)]
     return int(np.count_nonzero((ordered[1:] == ordered[:-1]).all(axis=1)))
 

@@ -9,6 +9,7 @@ import re
 from pathlib import Path
 
 from ..errors import MeshReadError
+from .byte_order_mark import MARK
 from .formats import BY_NAME, BY_SUFFIX, Format
 
 HEAD = 4096
@@ -91,7 +92,7 @@ def format_of(head: bytes, name: str) -> str | None:
     """
     suffix = Path(name.lower()).suffix
     by_suffix = BY_SUFFIX[suffix].name if suffix in BY_SUFFIX else SUFFIXES.get(suffix)
-    head = head.removeprefix(b"\xef\xbb\xbf")
+    head = head.removeprefix(MARK)
     for pattern, found in SIGNATURES:
         if re.match(pattern, head, re.DOTALL if found in SPANNING else 0):
             return by_suffix if by_suffix in CONTAINERS.get(found, ()) else found

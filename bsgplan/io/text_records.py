@@ -16,6 +16,7 @@ import numpy as np
 
 from ..arrays import Floats, Ints
 from ..errors import MeshReadError
+from .byte_order_mark import skip_mark
 from .number_table import LARGEST_WHOLE, numbers_of, shown, word_starts
 
 BUFFER = 1 << 20
@@ -81,6 +82,7 @@ class TextRecords:
 
     def __init__(self, path: Path, *, comment: bytes, separator: bytes = b" ") -> None:
         self.stream = path.open("rb")
+        skip_mark(self.stream)
         self.comment, self.separator = comment, separator
         self.line_number = 0
         self._text = b""
@@ -120,7 +122,7 @@ class TextRecords:
             block = self._block(n_rows - n_found)
             if not block:
                 raise MeshReadError(
-                    f"the file ends after {n_found} of {n_rows} {what} lines; "
+                    f"the file ends after {n_found} of {n_rows} lines, {what} each; "
                     "repair the count or fetch the whole file"
                 )
             parts.append(_rows(block, first, self.comment, what))

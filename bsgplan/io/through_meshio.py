@@ -13,6 +13,7 @@ import numpy as np
 from ..arrays import Floats, Ints
 from ..errors import BsgplanError, MeshReadError
 from .boundary import Boundary
+from .byte_order_mark import skip_mark
 from .file import RawMesh
 from .hush import hushed
 
@@ -28,6 +29,9 @@ PARTIAL_DATA = "data cover a part of the points or cells only; those arrays were
 
 def read_through_meshio(path: Path, file_format: str) -> RawMesh:
     """Return what meshio's reader of that format finds in a file."""
+    with path.open("rb") as stream:
+        if skip_mark(stream):
+            raise MeshReadError("begins with a byte order mark, which few readers know; save it without")
     with hushed():
         try:
             found, notes = _read_gmsh(path) if file_format == "gmsh" else (_read(path, file_format), ())

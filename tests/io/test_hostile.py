@@ -60,6 +60,21 @@ def test_every_reader_of_ours_has_a_seed_that_it_reads(tmp_path):
         assert found.format == seed.format.name
 
 
+@pytest.mark.parametrize("seed", [s for s in SEEDS if is_text(s.files[s.main])], ids=repr)
+def test_ends_of_lines_tabs_and_a_byte_order_mark_change_nothing(tmp_path, seed):
+    expected = read(seed.written(tmp_path)).mesh
+    for change in (
+        lambda text: b"\xef\xbb\xbf" + text,
+        lambda text: text.replace(b"\n", b"\r\n"),
+        lambda text: text.replace(b" ", b"\t") if seed.format.name != "mfem" else text,
+        lambda text: text.rstrip(b"\n"),
+    ):
+        for name, content in seed.files.items():
+            found = read(seed.written(tmp_path, name, change(content))).mesh
+            assert np.array_equal(found.points, expected.points)
+            assert np.array_equal(found.triangles, expected.triangles)
+
+
 @pytest.mark.parametrize("seed", SEEDS, ids=repr)
 @given(data=st.data())
 def test_a_damaged_file_is_read_as_a_mesh_or_refused_in_one_line(tmp_path, seed, data):

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import re
+
 import meshio
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from predicates import assert_is_mesh_file
 
 from bsgplan.errors import InvalidMesh, MeshReadError
 from bsgplan.io import read
+from bsgplan.io.file import RawMesh, _n_coincident, assemble
 from bsgplan.io.sniff import format_of
 
 POINTS = np.array([[9.0, 9, 0], [0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, 0, 0], [2, 1, 0]])
@@ -222,3 +227,31 @@ def test_physical_groups_on_a_part_of_the_cells_do_not_stop_the_reader(tmp_path)
     assert found.cell_data["gmsh:physical"].tolist() == [7, 0]
     assert found.cell_names == {"gmsh:physical": {7: "sea"}}
     assert "a part of the cells only" in found.notes[0]
+
+
+@given(places=st.lists(st.tuples(*[st.sampled_from([-1.0, -0.0, 0.0, 2.5])] * 3), min_size=1, max_size=20))
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_points_that_coincide_are_counted_as_a_set_counts_them(dimension, places):
+    points = np.array(places)[:, :dimension]
+    assert _n_coincident(points) == len(points) - len(set(map(tuple, points.tolist())))
+
+
+@given(data=st.data())
+def test_triangles_that_stand_twice_are_counted(data):
+    """Triangles apart from each other in space, some again, turned or not; each thrice is not manifold."""
+    n = data.draw(st.integers(1, 6))
+    again = data.draw(st.sets(st.integers(0, n - 1)))
+    once = np.arange(3 * n).reshape(n, 3)
+    twins = [once[k][data.draw(st.permutations([0, 1, 2]))] for k in sorted(again)]
+    triangles = np.array([*once, *twins])[data.draw(st.permutations(range(n + len(twins))))]
+    points = np.random.default_rng(3).random((3 * n, 3))
+    raw = RawMesh(points, triangles, np.empty((0, 4), dtype=np.int64))
+    if not again:
+        assert assemble("t", "made", raw).mesh.n_triangles == n
+        return
+    message = rf"^t: {len(again)} triangles stand in the file twice, the first (\d+) and (\d+);"
+    with pytest.raises(InvalidMesh, match=message) as caught:
+        assemble("t", "made", raw)
+    first, second = map(int, re.match(message, str(caught.value)).groups())
+    assert first < second
+    assert sorted(triangles[first]) == sorted(triangles[second])

@@ -141,7 +141,7 @@ def test_a_surface_in_space_and_the_skin_of_a_volume(small):
         (
             "MARKER_ELEMS= 1",
             "MARKER_ELEMS= 9999999999999",
-            "the file ends after 1 of 9999999999999 marker '7'",
+            "the file ends after 1 of 9999999999999 lines, marker '7' each",
         ),
         ("NELEM= 3", "NELEM= -3", "line 3: NELEM= '-3' is no count"),
         ("NELEM= 3", "NELEM= three", "line 3: NELEM= 'three' is no count"),

@@ -71,7 +71,7 @@ def test_numbers_end_at_a_word(tmp_path, monkeypatch, buffer):
         ("1 2\n3 0x10\n", "line 2: a row has '0x10'"),
         ("1 2\n3 4\x005\n", "line 2: a row has"),
         ("1 2\n3 4-5\n", "line 2: a row has '4-5'"),
-        ("1 2\n", "the file ends after 1 of 2 a row lines"),
+        ("1 2\n", "the file ends after 1 of 2 lines, a row each"),
         ("1 2\n" + "3" * 2_000_000, "line 2 has more than 1048576 bytes"),
         ("1 2\n" + " 3" * 2_000_000, "line 2 has more than 1048576 bytes"),
     ],
