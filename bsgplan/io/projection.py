@@ -64,11 +64,15 @@ class Projection:
 
         A mesh across the date line is not torn; its longitudes may pass 180.
         """
-        degrees = self.to_degrees(points)
-        degrees[:, 0] = self.longitude + np.mod(degrees[:, 0] - self.longitude + 180.0, 360.0) - 180.0
+        degrees = self.unbroken(self.to_degrees(points))
         if degrees[:, 0].mean() < self.west:
             degrees[:, 0] += 360.0
         return degrees
+
+    def unbroken(self, degrees: Floats) -> Floats:
+        """Return (longitude, latitude), (n, 2), degrees, with longitudes within 180 of the centre."""
+        longitude = self.longitude + np.mod(degrees[:, 0] - self.longitude + 180.0, 360.0) - 180.0
+        return np.column_stack([longitude, degrees[:, 1]])
 
     def scale(self, points: Floats) -> Floats:
         """Return plane metres per true metre at points of the plane, (n,), dimensionless."""

@@ -53,8 +53,9 @@ def assembled(
     except InvalidMesh as error:
         raise InvalidMesh(f"{os.fspath(path)}: {error}") from None
     mesh_file = assemble(os.fspath(path), file_format, raw, projection)
-    own = points[mesh_file.kept_points]  # straight edges of the file are not straight in a projection
-    cracks = cracks_told(mesh_file.kept_points[hanging_points(own, mesh_file.mesh.topology)])
+    own = points[mesh_file.kept_points]
+    straight = own if projection is None else projection.unbroken(own[:, :2])  # edges are, in the file
+    cracks = cracks_told(mesh_file.kept_points[hanging_points(straight, mesh_file.mesh.topology)])
     if cracks:
         logging.getLogger("bsgplan").warning("%s: %s", os.fspath(path), cracks)
         mesh_file = replace(mesh_file, notes=(*mesh_file.notes, cracks))

@@ -75,3 +75,18 @@ def test_the_real_grid_with_hanging_nodes_is_told(meshes, capsys):
     assert main(["estimate", str(path), "--split-quads", "--tris-per-block", "4"]) == 0
     assert "4 hanging nodes (12, 14, 16, 18, from 0) in the middle of an edge" in capsys.readouterr().err
     assert any("hanging" in note for note in read(path, split_quads=True).notes)
+
+
+def test_degrees_are_straight_in_the_file_also_across_the_date_line(tmp_path, capsys):
+    """An adaptive grid, three degrees a square: its edges are bent by the projection."""
+    mesh = adaptive(2, np.array([1, 2, 1, 1]), 0.0)
+    for west in (10.0, 178.0):
+        x, y = (mesh.points * 3 + [west, 40.0]).T
+        points = np.column_stack([np.where(x > 180, x - 360, x), y])
+        lines = [f"{k} {x!r} {y!r} 1\n" for k, (x, y) in enumerate(points.tolist(), 1)]
+        lines += [f"{k} 3 {a} {b} {c}\n" for k, (a, b, c) in enumerate((mesh.triangles + 1).tolist(), 1)]
+        path = tmp_path / "grid.14"
+        path.write_text(f"t\n{mesh.n_triangles} {mesh.n_points}\n" + "".join(lines))
+        assert main(["info", str(path), "--lonlat"]) == 0
+        named = ", ".join(map(str, slow_hanging(mesh)))
+        assert f"2 hanging nodes ({named}, from 0)" in capsys.readouterr().err
