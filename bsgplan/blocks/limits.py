@@ -102,14 +102,12 @@ def channel_limit(domain: Domain, length: Floats) -> Floats:
     """Return CHANNEL times the width of the channel at each point of the boundary that faces another."""
     limit = np.full(domain.n_points, np.inf)
     shore = np.flatnonzero(domain.is_boundary)
-    edges = np.sort(domain.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    edges = np.unique(edges, axis=0)
-    steps = np.linalg.norm(domain.points[edges[:, 1]] - domain.points[edges[:, 0]], axis=1)
+    edges, steps = domain.mesh.topology.edges, domain.mesh.edge_lengths
     n = domain.n_points
     graph = coo_array((steps, (edges[:, 0], edges[:, 1])), shape=(n, n)).tocsr()
     away, _, nearest = dijkstra(graph, directed=False, indices=shore, min_only=True, return_predecessors=True)
     a, b = nearest[edges].T
-    width = away[edges].sum(axis=1) + steps
+    width = away[edges[:, 0]] + away[edges[:, 1]] + steps
     curve, arc = domain.curve_of_point, domain.arc_of_point
     total = domain.curve_lengths[np.maximum(curve[a], 0)]
     along = np.abs(arc[a] - arc[b])

@@ -9,7 +9,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from ..arrays import Floats, Ints
 from ..sizing.limits import limit_gradient
@@ -87,6 +86,8 @@ def _merit(grid: BlockGrid) -> tuple[int, float]:
 
 def _lowered(layout: BlockLayout, poor: Ints) -> BlockLayout:
     """Return the layout with blocks wanted smaller round the poor ones."""
+    from scipy.spatial import cKDTree  # 0.1 s that an estimate need not spend
+
     domain, blocks, target = layout.domain, layout.placed, layout.target
     middles = blocks.points[blocks.triangles].mean(axis=1)[poor]
     log_factor = np.zeros(domain.n_points)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..arrays import Bools, Floats, frozen_floats, sums_by
+from ..mesh.operators import corner_means
 from ..sizing import SizeField
 from ..sizing.field import EQUILATERAL
 from ..sizing.limits import limit_gradient
@@ -111,7 +112,7 @@ def n_blocks(domain: Domain, length: Floats) -> float:
 
 
 def _blocks(domain: Domain, length: Floats) -> Floats:
-    mean = np.exp(np.log(length)[domain.triangles[:, :3]].mean(axis=1))
+    mean = np.exp(corner_means(domain.triangles[:, :3], np.log(length)))
     return np.asarray(domain.areas / (EQUILATERAL * mean**2))
 
 

@@ -160,9 +160,10 @@ def check_options(objective: str, persistence: float, plateau: float, gradient_l
 def check_suffixes(figure: Path | None, vtk: Path | None, vtk_patterns: Path | None) -> None:
     """Raise InvalidOption for a picture or VTK file of another format, before any work is done."""
     from ..io.vtk_cells import check_suffix
-    from ..report.figure import check_figure_suffix
 
     if figure:
+        from ..report.figure import check_figure_suffix
+
         check_figure_suffix(figure)
     for path in (vtk, vtk_patterns):
         if path:

@@ -79,7 +79,6 @@ def layout(
     from ..blocks.kernel.compiled import is_cached
     from ..laid_out.export import flavour
     from ..layout_pipeline import lay_out_mesh
-    from ..report.figure import check_figure_suffix
     from ..result import dumps
     from .info import open_mesh
     from .output import check_writable, show
@@ -87,6 +86,8 @@ def layout(
 
     check_writable(output, grid, figure, save, sources=(file, size_file))
     if figure is not None:
+        from ..report.figure import check_figure_suffix
+
         check_figure_suffix(figure)
     for path in (output, grid):
         if path is not None:

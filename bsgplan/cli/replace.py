@@ -70,7 +70,6 @@ def replace(
     from ..regions.selection import parse_region
     from ..remesh.accept import Terms
     from ..replace_pipeline import replace_in
-    from ..report.figure import check_figure_suffix
     from ..result import dumps
     from .info import open_mesh
     from .output import check_writable, show
@@ -80,6 +79,8 @@ def replace(
     if output is not None:
         writable(output)
     if figure is not None:
+        from ..report.figure import check_figure_suffix
+
         check_figure_suffix(figure)
     check_writable(output, save, figure, sources=(file, size_file))
     with bar() as progress, interruptible() as is_stopped:

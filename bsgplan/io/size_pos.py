@@ -22,7 +22,6 @@ import warnings
 from pathlib import Path
 
 import numpy as np
-from scipy.spatial import Delaunay, QhullError
 
 from ..arrays import Floats
 from ..errors import MeshReadError
@@ -87,6 +86,8 @@ def _background(body: str) -> Background:
 
 def joined(points: Floats, sizes: Floats) -> Background:
     """Return the background on the Delaunay triangulation of points, (n, 3), of one plane z = const."""
+    from scipy.spatial import Delaunay, QhullError  # 0.1 s that other files need not spend
+
     points, first = np.unique(points, axis=0, return_index=True)
     sizes = sizes[first]
     if np.ptp(points[:, 2]) > 0:

@@ -30,14 +30,13 @@ def check_shapes(points: Floats, triangles: Ints) -> None:
         raise InvalidMesh(f"triangles have shape {triangles.shape}; give (n_triangles, 3)")
     if not len(triangles):
         raise InvalidMesh("the mesh has no triangles; give a mesh of triangles")
-    is_bad = np.asarray(((triangles < 0) | (triangles >= len(points))).any(axis=1))
-    if is_bad.any():
+    if triangles.min() < 0 or triangles.max() >= len(points):
+        is_bad = np.asarray(((triangles < 0) | (triangles >= len(points))).any(axis=1))
         raise InvalidMesh(
             _first(is_bad, triangles, f"an index outside 0 .. {len(points) - 1}", "repair the file")
         )
-    is_bad = np.asarray(~np.isfinite(points).all(axis=1))
-    if is_bad.any():
-        where = np.flatnonzero(is_bad)
+    if not np.isfinite(points).all():
+        where = np.flatnonzero(~np.isfinite(points).all(axis=1))
         raise InvalidMesh(
             f"{len(where)} points are not finite, the first {where[0]} at {points[where[0]]}; repair the file"
         )
@@ -53,7 +52,7 @@ def check_mesh(points: Floats, triangles: Ints) -> None:
         raise InvalidMesh(f"the mesh is {extent:g} across, beyond reckoning; give it in another unit")
     with np.errstate(over="ignore", invalid="ignore"):
         areas = signed_areas(points, triangles)
-        longest = corner_edge_lengths(points, triangles).max(axis=1) ** 2
+        longest = np.maximum.reduce(corner_edge_lengths(points, triangles).T) ** 2
         is_flat = ~(np.abs(areas) > FLAT * longest)
     if is_flat.any():
         raise InvalidMesh(_first(is_flat, triangles, "zero area", "clean the mesh first"))

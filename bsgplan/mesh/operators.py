@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import csr_array, diags_array
 
-from ..arrays import Floats, sums_by
+from ..arrays import Floats, Ints, sums_by
 from .mesh import Mesh
 
 
@@ -27,10 +27,21 @@ def gradient(mesh: Mesh, values: Floats) -> Floats:
     return np.asarray(slope / (4 * mesh.areas**2)[:, None])
 
 
+def corner_means(triangles: Ints, values: Floats) -> Floats:
+    """Return the mean of the values at the corners of each triangle, (n_triangles, ...).
+
+    >>> corner_means(np.array([[0, 1, 2]]), np.array([1.0, 2.0, 6.0]))
+    array([3.])
+    """
+    a, b, c = (values[corner] for corner in triangles.T)
+    return np.asarray((a + b + c) / 3)
+
+
 def cotangents(mesh: Mesh) -> Floats:
     """Return the cotangent of the angle at each corner, (n_triangles, 3)."""
-    squares = mesh.corner_edge_lengths**2
-    return np.asarray((squares.sum(axis=1, keepdims=True) - 2 * squares) / (4 * mesh.areas)[:, None])
+    lengths = mesh.corner_edge_lengths
+    total = np.einsum("ij,ij->i", lengths, lengths)
+    return np.asarray((total[:, None] - 2 * lengths**2) / (4 * mesh.areas)[:, None])
 
 
 def edge_weights(mesh: Mesh, conductivity: Floats | None = None) -> Floats:

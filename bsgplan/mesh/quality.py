@@ -46,7 +46,7 @@ def mean_ratio(areas: Floats, lengths: Floats) -> Floats:
     >>> mean_ratio(np.array([0.5]), np.array([[1.0, 1.0, 2.0**0.5]])).round(4)
     array([0.866])
     """
-    total = (lengths**2).sum(axis=1)
+    total = np.einsum("ij,ij->i", lengths, lengths)
     return 4 * np.sqrt(3) * np.asarray(areas) / np.where(total > 0, total, 1.0)
 
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import Floats
+from ..mesh.operators import corner_means
 from ..regions import Regions
 from ..sizing.limits import capped_triangles, gradient_limited_blocks
 
@@ -108,4 +109,4 @@ def drivers(
 def _slope_energy(regions: Regions) -> Floats:
     """Return the integral of |grad log h|^2 over each triangle, (n_triangles,)."""
     size, mesh = regions.size, regions.size.mesh
-    return np.asarray((size.slope[mesh.triangles].mean(axis=1) ** 2).sum(axis=1) * mesh.areas)
+    return np.asarray((corner_means(mesh.triangles, size.slope) ** 2).sum(axis=1) * mesh.areas)

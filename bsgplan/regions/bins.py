@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..arrays import Floats, Ints, sums_by
+from ..arrays import Floats, Ints, grouped, sums_by
 from ..sizing import SizeField
 
 SAMPLES = 8
@@ -30,12 +30,8 @@ def bin_edges(size: SizeField, label: Ints) -> tuple[Floats, Ints]:
     """Return the bin edges of all regions in one array, and the first bin of each region, (n_labels + 1,)."""
     n_labels = int(label.max()) + 1
     a, b, c = (size.log_h[corner] for corner in size.mesh.triangles.T)
-    middle, lowest, highest = (
-        (a + b + c) / 3,
-        np.minimum(np.minimum(a, b), c),
-        np.maximum(np.maximum(a, b), c),
-    )
-    order = np.lexsort((middle, label))
+    lowest, highest = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
+    order, start = by_level(size, label)
     weight = size.triangle_weights[order]
     total = np.bincount(label, size.triangle_weights, n_labels)
     n_bins = np.clip(total / TRIANGLES_PER_BIN, 1, MOST_BINS).astype(np.int64)
@@ -43,17 +39,24 @@ def bin_edges(size: SizeField, label: Ints) -> tuple[Floats, Ints]:
     np.minimum.at(low, label, lowest)
     np.maximum.at(high, label, highest)
     high = np.maximum(high, low + LEAST_SPAN)
-    start = np.concatenate([[0], np.cumsum(np.bincount(label, minlength=n_labels))])
     edges = []
     for k in range(n_labels):
         own = slice(start[k], start[k + 1])
         share = np.cumsum(weight[own]) - weight[own] / 2
-        inner = np.interp(np.arange(1, n_bins[k]) * total[k] / n_bins[k], share, middle[order[own]])
+        inner = np.arange(1, n_bins[k]) * total[k] / n_bins[k]
+        inner = np.interp(inner, share, size.triangle_log_h[order[own]])
         ladder = np.linspace(
             low[k], high[k], n_bins[k] + 1
         )  # keeps the edges apart where all sizes are equal
         edges.append(0.999 * np.concatenate([low[k : k + 1], inner, high[k : k + 1]]) + 0.001 * ladder)
     return np.concatenate(edges), np.concatenate([[0], np.cumsum(n_bins)])
+
+
+def by_level(size: SizeField, label: Ints) -> tuple[Ints, Ints]:
+    """Return the triangles by label, each label's by their log size, and where those of each label begin."""
+    order = np.argsort(size.triangle_log_h)
+    by_label, start = grouped(label[order], int(label.max()) + 1)
+    return order[by_label], start
 
 
 def sums_over_bins(

@@ -78,7 +78,7 @@ def front_coordinate(regions: Regions, side: float) -> tuple[Floats, Floats]:
     """
     size, mesh = regions.size, regions.size.mesh
     at_points, at_triangles = np.zeros(mesh.n_points), np.zeros(mesh.n_triangles)
-    middle = size.log_h[mesh.triangles].mean(axis=1)
+    middle = size.triangle_log_h
     for region in reversed(regions.regions):  # smallest id last, so it has the last word
         if region.kind == TRANSITION:
             corners = mesh.triangles[region.triangles].ravel()

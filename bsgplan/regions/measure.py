@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..arrays import Bools, Floats, Ints, sums_by
+from ..arrays import Bools, Floats, Ints, grouped, sums_by
+from ..mesh import Mesh
 from ..sizing import SizeField
 from ..sizing.charge import region_charges
+from .bins import by_level
 from .plateau import PLATEAU
 from .profile import profiles
 from .region import TRANSITION, UNIFORM, Region, Regions, inner_irregularity
@@ -43,8 +45,7 @@ def measure_regions(
     irregularity = inner_irregularity(size, inside, n)
     is_closed = np.sum([_is_ring(size, inside, level) for level in _levels(size, inside, n)], axis=0) >= 2
     is_monotone = _monotone(size, inside, n, persistence)
-    order = np.argsort(inside, kind="stable")
-    start = np.searchsorted(inside[order], np.arange(n + 1))
+    order, start = grouped(inside, n + 1)
     corner_h = size.h[mesh.triangles]
     regions = []
     for k in range(n):
@@ -71,11 +72,9 @@ def measure_regions(
 
 def _levels(size: SizeField, label: Ints, n: int) -> list[Floats]:
     """Return the log sizes below which each share of `PROBES` of a region's triangles lies, (n,) each."""
-    middle = size.log_h[size.mesh.triangles].mean(axis=1)
-    order = np.lexsort((middle, label))
-    count = np.bincount(label, minlength=n)[:n]
-    first = np.cumsum(count) - count
-    return [middle[order][first + (share * count).astype(np.int64)] for share in PROBES]
+    order, start = by_level(size, label)
+    first, count = start[:n], np.diff(start)[:n]
+    return [size.triangle_log_h[order[first + (share * count).astype(np.int64)]] for share in PROBES]
 
 
 def _is_ring(size: SizeField, label: Ints, level: Floats) -> Bools:
@@ -84,7 +83,8 @@ def _is_ring(size: SizeField, label: Ints, level: Floats) -> Bools:
     first, second = topology.edge_cells.T
     beyond = np.where(second >= 0, label[second], -1)
     is_rim = label[first] != beyond
-    low, high = np.sort(size.log_h[topology.edges[is_rim]], axis=1).T
+    ends = size.log_h[topology.edges[np.flatnonzero(is_rim)]].T
+    low, high = np.minimum(*ends), np.maximum(*ends)
     crossings = np.zeros(n, dtype=np.int64)
     for own in (label[first[is_rim]], beyond[is_rim]):
         inside = (own >= 0) & (own < n)
@@ -98,14 +98,7 @@ def _monotone(size: SizeField, label: Ints, n: int, persistence: float) -> Bools
 
     The size field of each region is taken by itself: corners are split between regions.
     """
-    mesh = size.mesh
-    node = np.unique(
-        np.repeat(label, 3) * np.int64(mesh.n_points) + mesh.triangles.ravel(), return_inverse=True
-    )
-    owner, vertex = np.divmod(node[0], mesh.n_points)
-    corners = node[1].reshape(-1, 3)
-    ends = np.sort(np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]]), axis=1)
-    lengths = np.linalg.norm(mesh.points[vertex[ends[:, 0]]] - mesh.points[vertex[ends[:, 1]]], axis=1)
+    ends, lengths, vertex, owner = _cut_apart(size.mesh, label)
     values = size.log_h[vertex]
     is_one = np.ones(n, dtype=bool)
     for field in (values, -values):
@@ -113,3 +106,24 @@ def _monotone(size: SizeField, label: Ints, n: int, persistence: float) -> Bools
         spots = owner[np.unique(lowest)]
         is_one &= np.bincount(spots, minlength=n + 1)[:n] == 1
     return is_one
+
+
+def _cut_apart(mesh: Mesh, label: Ints) -> tuple[Ints, Floats, Ints, Ints]:
+    """Return the edges of a mesh cut along the borders of its labels, (n, 2), and their lengths.
+
+    Also the vertex and the label of each node: a vertex is as many nodes as there are labels around it.
+    """
+    topology, n = mesh.topology, mesh.n_points
+    first, second = topology.edge_cells.T
+    on_border = np.flatnonzero((second >= 0) & (label[first] != label[second]))
+    edge = np.concatenate([np.arange(len(first)), on_border])
+    side = label[np.concatenate([first, second[on_border]])]
+    ends = topology.edges[edge]
+    owner = np.empty(n, dtype=np.int64)
+    owner[mesh.triangles.ravel()] = np.repeat(label, 3)  # any of its labels: the node of the others is new
+    is_other = owner[ends] != side[:, None]
+    keys = (side[:, None] * n + ends)[is_other]
+    others, at = np.unique(keys, return_inverse=True)
+    ends[is_other] = n + at
+    vertex, owners = np.concatenate([np.arange(n), others % n]), np.concatenate([owner, others // n])
+    return ends, mesh.edge_lengths[edge], vertex, owners

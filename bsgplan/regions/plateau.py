@@ -10,6 +10,7 @@ import numpy as np
 
 from ..arrays import Bools, Floats, Ints, sums_by
 from ..mesh import Mesh
+from ..mesh.quality import lengths
 from ..sizing import SizeField
 from . import labels
 
@@ -38,18 +39,18 @@ def plateaus(size: SizeField, *, plateau: float, spread: float, least: float) ->
     A zone is connected, covers least triangles of its size, and spans less than spread in log size; a
     piece whose size drifts further is tried again with half and a quarter of the slope.
     """
-    mesh, log_h = size.mesh, np.log(size.triangle_h)
-    steepness = np.linalg.norm(size.slope, axis=1) * size.h
+    mesh, log_h = size.mesh, size.triangle_log_h
+    steepness = lengths(size.slope) * size.h
     beside = _largest_beside(mesh, _largest_beside(mesh, steepness))
     is_zone = np.zeros(mesh.n_triangles, dtype=bool)
     for share in (1.0, 0.5, 0.25):
         is_low = (steepness < share * plateau) | (steepness < share * DROP * beside)
-        is_flat = (np.count_nonzero(is_low[mesh.triangles], axis=1) >= 2) & ~is_zone
+        is_flat = (_at_two_corners(mesh, is_low)) & ~is_zone
         piece = labels.connected(mesh, is_flat.astype(np.int64))
         is_large = sums_by(piece, size.triangle_weights, int(piece.max()) + 1) >= least
         is_zone |= is_flat & (is_large & (spread_of(piece, log_h) < spread))[piece]
     is_blurred = steepness < BLUR * _largest_beside(mesh, beside)
-    return _grown(mesh, is_zone, np.count_nonzero(is_blurred[mesh.triangles], axis=1) >= 2, log_h)
+    return _grown(mesh, is_zone, _at_two_corners(mesh, is_blurred), log_h)
 
 
 def _grown(mesh: Mesh, is_zone: Bools, is_blurred: Bools, log_h: Floats) -> Bools:
@@ -74,6 +75,12 @@ def _largest_beside(mesh: Mesh, values: Floats) -> Floats:
     np.maximum.at(result, i, values[j])
     np.maximum.at(result, j, values[i])
     return result
+
+
+def _at_two_corners(mesh: Mesh, mask: Bools) -> Bools:
+    """Return the triangles with two corners or three in the mask, (n_triangles,)."""
+    a, b, c = (mask[corner] for corner in mesh.triangles.T)
+    return np.asarray((a & b) | (b & c) | (c & a))
 
 
 def spread_of(label: Ints, log_h: Floats) -> Floats:

@@ -40,7 +40,7 @@ def segment(
     bound on |grad h|.
     """
     mesh, side = size.mesh, np.sqrt(tris_per_block)
-    log_h, weight = np.log(size.triangle_h), size.triangle_weights
+    log_h, weight = size.triangle_log_h, size.triangle_weights
     is_zone = plateaus(size, plateau=plateau, spread=2 * persistence, least=tris_per_block)
     label = labels.connected(mesh, np.where(is_zone, -1, _monotone_cells(mesh, size.log_h, persistence)))
 

@@ -57,7 +57,8 @@ def _merge(edges: Ints, values: Floats, minima: Ints, basin: Ints, persistence: 
     is_border = first != second
     # edges that meet in one highest node have one height: the lower end decides, not the numbering
     first, second = first[is_border], second[is_border]
-    low, high = np.sort(values[edges[np.flatnonzero(is_border)]], axis=1).T
+    ends = values[edges[np.flatnonzero(is_border)]].T
+    low, high = np.minimum(*ends), np.maximum(*ends)
     pair, lowest = _lowest_of_pairs(first, second, low, high, len(minima))
     order = np.lexsort((low[lowest], high[lowest]))
     levels = high[lowest][order]

@@ -9,7 +9,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from ..arrays import Floats, Ints
 from ..mesh import Mesh
@@ -67,6 +66,8 @@ def anchors(centres: Floats, label: Ints, border: Floats, n: int) -> tuple[Float
 
     centres are (n_triangles, 2), border points (n_border, 2); regions that are not seen get nan and 0.
     """
+    from scipy.spatial import cKDTree  # 0.1 s that a plan without a figure need not spend
+
     tree = cKDTree(border) if len(border) else None
     spot, room = np.full((n, 2), np.nan), np.zeros(n)
     order = np.argsort(label, kind="stable")

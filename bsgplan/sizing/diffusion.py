@@ -112,5 +112,5 @@ def _bounded(mesh: Mesh, conductivity: Floats, mass: Floats) -> tuple[Floats, fl
     bound = min(float(stiff.max()), MOST_STIFF * float(np.median(stiff)))
     if bound <= 0:
         return conductivity, 1.0
-    worst = stiff[mesh.triangles].max(axis=1)
+    worst = np.maximum.reduce([stiff[corner] for corner in mesh.triangles.T])
     return conductivity * np.minimum(1.0, bound / np.maximum(worst, bound)), bound

@@ -14,7 +14,7 @@ import numpy as np
 from ..arrays import Floats, frozen_floats
 from ..errors import InvalidSize
 from ..mesh import Mesh
-from ..mesh.operators import gradient, to_vertices
+from ..mesh.operators import corner_means, gradient, to_vertices
 from .charge import edge_fluxes
 from .diffusion import diffuse
 
@@ -54,9 +54,14 @@ class SizeField:
         return np.log(self.h)
 
     @cached_property
+    def triangle_log_h(self) -> Floats:
+        """Mean logarithm of h at the corners of each triangle, (n_triangles,)."""
+        return corner_means(self.mesh.triangles, self.log_h)
+
+    @cached_property
     def triangle_h(self) -> Floats:
         """Size of each triangle, (n_triangles,), length: the geometric mean of its corners."""
-        return np.exp(self.log_h[self.mesh.triangles].mean(axis=1))
+        return np.exp(self.triangle_log_h)
 
     @cached_property
     def triangle_weights(self) -> Floats:

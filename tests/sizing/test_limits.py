@@ -86,3 +86,11 @@ def test_a_cap_above_every_size_caps_nothing_and_half_the_size_has_four_times_th
     cap = np.full(mesh.n_triangles, 0.2)
     assert capped_triangles(size, cap, everything) == pytest.approx(size.expected_triangles)
     assert capped_triangles(size, cap / 4, everything) == pytest.approx(4 * size.expected_triangles)
+
+
+def test_a_diagonal_beside_an_edge_does_not_lengthen_it() -> None:
+    """Round a vertex of valence 3 each edge of the rim also joins the tips of two triangles."""
+    points = np.array([[0.0, 0.0], [4.0, 0.0], [2.0, 3.0], [2.0, 1.0]])
+    mesh = Mesh(points, np.array([[0, 1, 3], [1, 2, 3], [2, 0, 3]]))
+    limited = limit_gradient(mesh, np.array([1.0, 10.0, 10.0, 10.0]), 0.5)
+    assert limited == pytest.approx(1.0 + 0.5 * np.linalg.norm(points, axis=1))
