@@ -10,8 +10,10 @@ import numpy as np
 from shapely.geometry.base import BaseGeometry
 
 from .arrays import Bools, Ints
-from .io import MeshFile
+from .errors import InvalidOption
+from .io import Boundary, MeshFile
 from .io.whole import MATERIAL_ARRAYS
+from .laid_out.shifted import free_edges, shifted
 from .mesh.edges import edge_numbers
 from .pipeline import size_of, triangles_in
 from .regions.labels import connected
@@ -29,6 +31,7 @@ def replace_in(
     region: BaseGeometry | None = None,
     size: str | None = None,
     size_file: str | os.PathLike[str] | None = None,
+    move_boundary: bool = False,
     terms: Terms = Terms(),  # noqa: B008 - frozen
     effort: int = EFFORT,
     seed: int = SEED,
@@ -38,7 +41,8 @@ def replace_in(
     """Return a mesh file with parts of its mesh replaced where that pays.
 
     region is a polygon in the coordinates of the file; without one the whole mesh is tried, and told by the
-    regions of its size field. is_stopped ends the annealing early where it gives True. Boundaries, edges
+    regions of its size field. move_boundary lets points of the boundary slide along
+    it, come and go. is_stopped ends the annealing early where it gives True. Boundaries, edges
     between materials, points of named groups and of quads stay.
     Raises what its steps raise.
     """
@@ -52,19 +56,26 @@ def replace_in(
         piece = connected(mesh, np.where(inside, 0, 1))
         label = np.full(mesh.n_triangles, -1, dtype=np.int64)
         label[inside] = np.unique(piece[inside], return_inverse=True)[1]
+    fixed, free, carry = fixed_points(mesh_file), None, _renumbered
+    if move_boundary:
+        if len(mesh_file.quad_nodes):
+            raise InvalidOption("--move-boundary: the mesh has quads; cut them first (--split-quads)")
+        free, fixed = free_edges(mesh, mesh_file.boundaries)
+        carry = _shifted
     replacement = replace(
         field,
         label=label,
         is_drawn=region is not None,
         fixed_edges=fixed_edges(mesh_file),
-        fixed_points=fixed_points(mesh_file),
+        fixed_points=fixed,
+        free_edges=free,
         terms=terms,
         effort=effort,
         seed=seed,
         progress=progress,
         is_stopped=is_stopped,
     )
-    return ReplacedMesh(mesh_file, replacement, regrafted(mesh_file, replacement.graft))
+    return ReplacedMesh(mesh_file, replacement, regrafted(mesh_file, replacement.graft, carry))
 
 
 def fixed_edges(mesh_file: MeshFile) -> Bools:
@@ -92,7 +103,19 @@ def fixed_points(mesh_file: MeshFile) -> Ints:
     return np.unique(np.concatenate(lists))
 
 
-def regrafted(mesh_file: MeshFile, graft: Graft) -> MeshFile:
+Carry = Callable[[MeshFile, Graft], tuple[Boundary, ...]]
+"""How the boundaries of a file come to its new mesh."""
+
+
+def _renumbered(mesh_file: MeshFile, graft: Graft) -> tuple[Boundary, ...]:
+    return tuple(b.renumbered(graft.new_index) for b in mesh_file.boundaries)
+
+
+def _shifted(mesh_file: MeshFile, graft: Graft) -> tuple[Boundary, ...]:
+    return shifted(mesh_file.mesh, graft.mesh, graft.new_index, mesh_file.boundaries)
+
+
+def regrafted(mesh_file: MeshFile, graft: Graft, carry: Carry = _renumbered) -> MeshFile:
     """Return the mesh file with the mesh of a graft: data carried over, boundaries by their points.
 
     Point data are exact at points that stayed and linear between old ones at others; cell data are those of
@@ -114,7 +137,7 @@ def regrafted(mesh_file: MeshFile, graft: Graft) -> MeshFile:
         mesh=mesh,
         point_data={name: graft.at_points(values) for name, values in mesh_file.point_data.items()},
         cell_data={name: graft.at_triangles(values) for name, values in mesh_file.cell_data.items()},
-        boundaries=tuple(b.renumbered(new_index) for b in mesh_file.boundaries),
+        boundaries=carry(mesh_file, graft),
         all_boundaries=tuple(b.renumbered(all_index) for b in mesh_file.all_boundaries),
         quad_nodes=np.where(mesh_file.quad_nodes >= 0, new_index[mesh_file.quad_nodes], -1),
         degrees=degrees,

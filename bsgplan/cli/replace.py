@@ -19,6 +19,7 @@ def replace(
     *,
     output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
     region: str | None = None,
+    move_boundary: Annotated[bool, Parameter(negative=(), show_default=False)] = False,
     min_quality: float | None = None,
     tolerance: float = 0.1,
     effort: int = 30,
@@ -42,6 +43,8 @@ def replace(
     region
         Replace inside this polygon only: "POLYGON((..))", x0,y0,x1,y1 or a GeoJSON file, in the file's
         coordinates.
+    move_boundary
+        Let points of the mesh's boundary slide along it, come and go; corners and ends of boundaries stay.
     min_quality
         Leave a part alone whose worst triangle would be under this mean ratio.
     tolerance
@@ -90,6 +93,7 @@ def replace(
             region=polygon,
             size=size,
             size_file=size_file,
+            move_boundary=move_boundary,
             terms=Terms(tolerance, min_quality),
             effort=effort,
             seed=seed,

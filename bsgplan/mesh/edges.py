@@ -1,4 +1,4 @@
-"""Edges by their two ends: a number for each, the same in both directions, and which of a mesh it is."""
+"""Edges by their two ends: a number for each, the same in both directions, which of a mesh it is; loops."""
 
 from __future__ import annotations
 
@@ -23,3 +23,23 @@ def edge_numbers(mesh: Mesh, ends: Ints) -> Ints:
     wanted = edge_keys(ends, mesh.n_points)
     at = np.minimum(np.searchsorted(keys, wanted), len(keys) - 1)
     return np.asarray(np.where(keys[at] == wanted, at, -1))
+
+
+def loops_of(sides: Ints) -> list[Ints]:
+    """Return directed sides, (n, 2), as closed loops of vertices, in their direction; none where they fork.
+
+    >>> [loop.tolist() for loop in loops_of(np.array([[3, 1], [1, 2], [2, 3]]))]
+    [[3, 1, 2]]
+    """
+    after = dict(sides.tolist())
+    result = []
+    while after:
+        first = node = next(iter(after))
+        loop = []
+        while node in after:
+            loop.append(node)
+            node = after.pop(node)
+        if node != first:
+            return []
+        result.append(np.array(loop, dtype=np.int64))
+    return result

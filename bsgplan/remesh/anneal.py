@@ -13,6 +13,7 @@ import numpy as np
 from ..arrays import Floats
 from ..blocks.cooling import Schedule, cooled
 from ..blocks.placed import PlacedMesh
+from ..blocks.weights import BEND_WEIGHT
 from .by_strips import Tries, with_strips
 from .cut import Cut
 from .mend import mended
@@ -69,7 +70,7 @@ def remeshed(
         n_sweeps=n_sweeps,
         n_wanted=wish.n_triangles,
         rms_wanted=max(wish.size_misfit, 1e-6),
-        bend_weight=0.0,
+        bend_weight=BEND_WEIGHT,
         seed=seed,
         progress=lambda text, share: progress(text, share * MAIN),
         is_stopped=is_stopped,

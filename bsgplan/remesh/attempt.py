@@ -39,6 +39,8 @@ class Task:
     """Edges that stay, (n_edges,)."""
     fixed_points: Ints | None
     """Points that stay."""
+    free_edges: Bools | None
+    """Boundary edges whose points may move along them, (n_edges,)."""
     terms: Terms
     """What a replacement must keep to."""
     effort: int
@@ -59,7 +61,10 @@ def attempt(
     size, terms = task.size, task.terms
     mesh = size.mesh
     before = measured(mesh, size.log_h, inside, _points_of(mesh, inside))
-    part = cut(mesh, inside, fixed_edges=task.fixed_edges, fixed_points=task.fixed_points)
+    part = cut(
+        mesh, inside,
+        fixed_edges=task.fixed_edges, fixed_points=task.fixed_points, free_edges=task.free_edges,
+    )  # fmt: skip
     if not part.start.is_irregular.any():
         return Part(name, before, before, "every vertex is regular"), None
     if part.is_frozen.all():

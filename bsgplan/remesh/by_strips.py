@@ -17,6 +17,7 @@ from ..blocks.cooling import Schedule, cooled, size_rms
 from ..blocks.domain import Domain
 from ..blocks.placed import PlacedMesh
 from ..blocks.smooth import qualities
+from ..blocks.weights import BEND_WEIGHT
 from .mend import holders, lacks, patch_of, spliced
 from .polish import polished
 from .strips import stripped
@@ -38,6 +39,8 @@ class Tries:
     """Regions with a clear transition, in which strips were laid."""
     kept: int = 0
     """Those that ended better than without."""
+    gone: int = 0
+    """Irregular vertices fewer in these than without, rims included."""
 
 
 def with_strips(
@@ -56,7 +59,7 @@ def with_strips(
     log_size is the log of the wanted edge at the domain's points, n_sweeps what each region gets.
     Regions are those of the wish. progress hears of the share of them done.
     """
-    tried = kept = 0
+    tried = kept = gone = 0
     label = wish.label[holders(domain, mesh)]
     n_own = np.bincount(wish.label)
     whole = [] if len(n_own) == 1 else [np.ones(len(n_own), dtype=bool)]
@@ -78,15 +81,16 @@ def with_strips(
         made = cooled(
             domain, start, log_size, CLEANUP,
             n_sweeps=n_sweeps, n_wanted=n_wanted, rms_wanted=wish.size_misfit,
-            bend_weight=0.0, seed=seed + number, progress=lambda _, __: None, is_stopped=is_stopped,
+            bend_weight=BEND_WEIGHT, seed=seed + number, progress=lambda _, __: None, is_stopped=is_stopped,
         )  # fmt: skip
         found = polished(domain, made.mesh, log_size, size_weight=made.size_weight, offset=made.offset)
         if _is_better(domain, found, patch.mesh, log_size, wish, n_wanted):
+            gone += int(patch.mesh.is_irregular.sum()) - int(found.is_irregular.sum())
             mesh, kept = spliced(mesh, [(patch, found)]), kept + 1
             label = wish.label[holders(domain, mesh)]
             if chosen.all():
                 break
-    return mesh, Tries(tried, kept)
+    return mesh, Tries(tried, kept, gone)
 
 
 def _is_better(

@@ -22,7 +22,8 @@ def closed(points: Floats, triangles: Ints, rim: Ints) -> Ints | None:
     """Return the triangles and those that fill what they leave of the inside of a rim, (m, 3).
 
     points is (n, 2), triangles (k, 3) counter-clockwise, rim the directed sides, inside on their left,
-    (r, 2). None where triangles overlap or reach over the rim.
+    (r, 2). None where triangles overlap or reach over the rim, or where
+    sides cross.
     """
     n = len(points)
     sides = np.concatenate([triangles[:, [i, (i + 1) % 3]] for i in range(3)])
@@ -32,7 +33,10 @@ def closed(points: Floats, triangles: Ints, rim: Ints) -> Ints | None:
     is_free = ~np.isin(sides[:, 1] * n + sides[:, 0], keys) & ~np.isin(keys, rim_keys)
     is_open = ~np.isin(rim_keys, keys)
     around = np.concatenate([rim[is_open], sides[is_free][:, ::-1]])
-    filled = triangles if not len(around) else np.concatenate([triangles, _filled(points, around)])
+    try:
+        filled = np.concatenate([triangles, _filled(points, around)]) if len(around) else triangles
+    except shapely.errors.GEOSException:  # sides that cross: no polygon with convex corners
+        return None
     area = signed_areas(points, filled)
     start, end = points[rim].swapaxes(0, 1)
     wanted = 0.5 * float((start[:, 0] * end[:, 1] - end[:, 0] * start[:, 1]).sum())

@@ -89,7 +89,7 @@ def patch_of(mesh: PlacedMesh, inside: Bools) -> Patch:
     meets = np.zeros(len(mesh.points), dtype=bool)
     meets[mesh.triangles[~inside]] = True
     own = topology(fan, len(source))
-    is_rim = own.is_boundary_edge[own.cell_edges[:, [1, 2, 0]]]
+    is_rim = own.is_boundary_edge[own.cell_edges[:, [1, 2, 0]]] & (mesh.neighbours[inside] >= 0)
     apart = PlacedMesh(
         points=mesh.points[source],
         triangles=fan,
@@ -166,7 +166,7 @@ def annealed(
     from ..blocks.kernel.state import POWER, VALENCES
     from ..blocks.kernel.sweeps import renew
 
-    state = load(domain, mesh, log_size, room=3.0, seed=seed, bend_weight=0.0, offset=offset)
+    state = load(domain, mesh, log_size, room=3.0, seed=seed, offset=offset)
     state.scalar[VALENCES], state.scalar[POWER] = valence_weight, POWER_OF_PATCHES
     renew(state)
     cool(state, falling(HOT, COLD, SWEEPS), MOVES * len(mesh.triangles))

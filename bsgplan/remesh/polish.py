@@ -19,7 +19,7 @@ def polished(
     from ..blocks.kernel.exchange import load, unload
     from ..blocks.kernel.schedule import polish
 
-    state = load(domain, mesh, log_size, room=1.0, size_weight=size_weight, bend_weight=0.0, offset=offset)
+    state = load(domain, mesh, log_size, room=1.0, size_weight=size_weight, offset=offset)
     polish(state, POLISH)
     moved = unload(state)
     return moved if qualities(moved).min() > qualities(mesh).min() else mesh

@@ -30,6 +30,7 @@ def replace(
     is_drawn: bool = False,
     fixed_edges: Bools | None = None,
     fixed_points: Ints | None = None,
+    free_edges: Bools | None = None,
     terms: Terms = Terms(),  # noqa: B008 - frozen
     effort: int = EFFORT,
     seed: int = SEED,
@@ -42,10 +43,11 @@ def replace(
     piece of what is labelled is tried as a whole; where only the quality of some regions stands in the way,
     once more without these, which are tried apart; where it is refused for more than that or its gain, region
     by region, unless it was drawn. is_stopped ends the annealing early where it gives True. fixed_edges,
-    (n_edges,), and fixed_points stay. Raises InvalidMesh for a surface in space.
+    (n_edges,), and fixed_points stay; points of free_edges, (n_edges,), slide along the boundary, come and
+    go. Raises InvalidMesh for a surface in space.
     """
     mesh = size.mesh
-    task = Task(size, label, fixed_edges, fixed_points, terms, effort, seed, is_stopped)
+    task = Task(size, label, fixed_edges, fixed_points, free_edges, terms, effort, seed, is_stopped)
     accepted: list[tuple[Cut, PlacedMesh]] = []
     told: list[Part] = []
     n_labelled = max(int(np.count_nonzero(label >= 0)), 1)

@@ -13,6 +13,7 @@ from ..arrays import Bools, Floats, Ints
 from ..blocks.outline import outline
 from ..blocks.placed import PlacedMesh
 from ..mesh import Mesh
+from ..mesh.edges import loops_of
 from ..regions.segmentation import PERSISTENCE
 from ..sizing import SizeField
 from ..sizing.charge import wide_slope
@@ -68,26 +69,6 @@ def rim_of(mesh: PlacedMesh, log_size: Floats) -> Rim | None:
     if len(loops) == 2:
         return _ring(mesh, log_size, slope, loops)
     return _strip(mesh, log_size, slope, loops[0])
-
-
-def loops_of(sides: Ints) -> list[Ints]:
-    """Return directed sides, (n, 2), as closed loops of vertices, in their direction.
-
-    >>> [loop.tolist() for loop in loops_of(np.array([[3, 1], [1, 2], [2, 3]]))]
-    [[3, 1, 2]]
-    """
-    after = dict(sides.tolist())
-    result = []
-    while after:
-        first = node = next(iter(after))
-        loop = []
-        while node in after:
-            loop.append(node)
-            node = after.pop(node)
-        if node != first:
-            return []  # a pinch: two sides begin at one vertex
-        result.append(np.array(loop, dtype=np.int64))
-    return result
 
 
 def _flows(mesh: PlacedMesh, slope: Floats, loop: Ints) -> tuple[Floats, Floats]:

@@ -42,7 +42,10 @@ def notes(replacement: Replacement) -> tuple[str, ...]:
     if replacement.is_interrupted:
         told.append("stopped early")
     if tried:
-        told.append(f"strips of fronts: tried in {tried} of the regions, better in {kept}")
+        gone = sum(part.strips.gone for part in replacement.parts if not part.reason)
+        told.append(
+            f"strips of fronts: tried in {tried} of the regions, better in {kept}, irregular {-gone:+d}"
+        )
     return tuple(told)
 
 

@@ -62,9 +62,19 @@ def told(name: str, mesh_file: MeshFile, left: float) -> Iterator[Row]:
     result, seconds = cpu_of(lambda: replace_in(mesh_file))
     before, after = result.replacement.totals()
     yield from compared(name, before, after, left)
+    worst = max(a.q_min - b.q_min for _, a, b in result.replacement.regions())
+    yield Row(f"{name}: largest loss of q_min in a region", worst, "", below=0.02)
+    strips = [part.strips for part in result.replacement.parts if not part.reason]
+    tried, kept = sum(s.tried for s in strips), sum(s.kept for s in strips)
+    gone = sum(s.gone for s in strips)
+    yield Row(f"{name}: strips better in {kept} of {tried} regions, irregular vertices fewer", gone)
     if before.n_triangles >= LARGE:
         per_triangle = seconds / before.n_triangles * 20_000
         yield Row(f"{name}: CPU for 20 000 triangles", per_triangle, "s CPU", below=90)
+    again = replace_in(result.after).replacement.totals()[1]
+    fewer = 1 - again.irregular_interior / after.irregular_interior
+    yield Row(f"{name}: share that a second run takes away", fewer, "", below=0.05)
+    yield Row(f"{name}: q_min that a second run takes away", after.q_min - again.q_min, "", below=1e-9)
 
 
 def compared(name: str, before: Measures, after: Measures, left: float) -> Iterator[Row]:

@@ -17,12 +17,13 @@ from bsgplan.blocks.outline import outline
 from bsgplan.blocks.placed import PlacedMesh
 from bsgplan.blocks.smooth import qualities
 from bsgplan.mesh import Mesh
+from bsgplan.mesh.edges import loops_of
 from bsgplan.mesh.quality import signed_areas
 from bsgplan.regions.selection import parse_region, triangles_inside
 from bsgplan.remesh.cut import cut
 from bsgplan.remesh.fronts import fronts_of
 from bsgplan.remesh.gaps import closed
-from bsgplan.remesh.rim import loops_of, rim_of
+from bsgplan.remesh.rim import rim_of
 from bsgplan.remesh.strips import counts_of, stripped
 from bsgplan.sizing import size_field
 
