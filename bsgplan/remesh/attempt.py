@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -97,11 +97,19 @@ def attempt(
             return Part(name, before, after, "", made.strips), (part, made.mesh)
         if not gains(before, after) or task.is_stopped():
             break
-    told = ", ".join(map(str, offenders[:SHOWN])) + (", .." if len(offenders) > SHOWN else "")
-    plural = "s" if len(offenders) > 1 else ""
-    reason = reason or f"quality would fall in region{plural} {told}"
+    reason = reason or f"quality would fall in {told_regions(offenders)}"
     could_gain = gains(before, after)
     return Part(name, before, before, reason, made.strips, tuple(offenders), could_gain), None
+
+
+def told_regions(numbers: Sequence[int]) -> str:
+    """Return a few regions in words.
+
+    >>> told_regions([3]), told_regions([1, 2, 5, 7])
+    ('region 3', 'regions 1, 2, 5, ..')
+    """
+    told = ", ".join(map(str, numbers[:SHOWN])) + (", .." if len(numbers) > SHOWN else "")
+    return f"region{'s' if len(numbers) > 1 else ''} {told}"
 
 
 def least_qualities(mesh: Mesh, label: Ints) -> Floats:

@@ -12,12 +12,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import Floats
+from ..arrays import Floats, Ints
 from ..blocks.cooling import Schedule, cooled, size_rms
 from ..blocks.domain import Domain
 from ..blocks.placed import PlacedMesh
 from ..blocks.smooth import qualities
 from ..blocks.weights import BEND_WEIGHT
+from ..mesh import Mesh
+from ..regions.borders import corner_shares, smooth_borders
+from ..regions.labels import connected
 from .mend import holders, lacks, patch_of, spliced
 from .polish import polished
 from .strips import stripped
@@ -25,6 +28,9 @@ from .wish import Wish
 
 CLEANUP = Schedule(hot=0.1, cold=0.03, moves=2, steered=9, gain=0.3, most_shift=0.2, most_size_weight=2.0)
 """How strips are annealed: from a lower temperature than a mesh of chance."""
+
+BORDER_ROUNDS = 2
+"""Rounds in which the borders of regions are straightened in the new mesh: ragged ones leave no room."""
 
 FEWEST = 4
 """A region with fewer irregular vertices, rim included, has nothing to gain: two fronts of the simplest
@@ -60,14 +66,14 @@ def with_strips(
     Regions are those of the wish. progress hears of the share of them done.
     """
     tried = kept = gone = 0
-    label = wish.label[holders(domain, mesh)]
+    label = _label(domain, mesh, wish)
     n_own = np.bincount(wish.label)
     whole = [] if len(n_own) == 1 else [np.ones(len(n_own), dtype=bool)]
     for number, chosen in enumerate([*whole, *np.eye(len(n_own), dtype=bool)]):
         if is_stopped():
             break
         progress("strips", number / (len(n_own) + 1))
-        inside = chosen[label]
+        inside = chosen[label] & ((label >= 0) | chosen.all())
         if not inside.any():
             continue
         patch = patch_of(mesh, inside)
@@ -87,10 +93,23 @@ def with_strips(
         if _is_better(domain, found, patch.mesh, log_size, wish, n_wanted):
             gone += int(patch.mesh.is_irregular.sum()) - int(found.is_irregular.sum())
             mesh, kept = spliced(mesh, [(patch, found)]), kept + 1
-            label = wish.label[holders(domain, mesh)]
+            label = _label(domain, mesh, wish)
             if chosen.all():
                 break
     return mesh, Tries(tried, kept, gone)
+
+
+def _label(domain: Domain, mesh: PlacedMesh, wish: Wish) -> Ints:
+    """Return the region of each triangle, its borders straight; -1 on all but its largest piece."""
+    whole = Mesh(mesh.points, mesh.triangles)
+    own = wish.label[holders(domain, mesh)]
+    label = smooth_borders(whole, own, corner_shares(whole), rounds=BORDER_ROUNDS)
+    piece = connected(whole, label)
+    n_in = np.bincount(piece)
+    order = np.argsort(n_in[piece], kind="stable")
+    largest = np.full(int(label.max()) + 1, -1)
+    largest[label[order]] = piece[order]
+    return np.where(piece == largest[label], label, -1)
 
 
 def _is_better(

@@ -11,7 +11,7 @@ from ..blocks.placed import PlacedMesh
 from ..regions.labels import connected
 from ..sizing import SizeField
 from .accept import Terms
-from .attempt import Task, attempt
+from .attempt import Task, attempt, told_regions
 from .cut import Cut
 from .graft import graft
 from .replacement import Part, Replacement
@@ -81,7 +81,7 @@ def replace(
         apart = labels
         if part.offenders and len(part.offenders) < len(labels):
             is_rest = inside & ~np.isin(label, part.offenders)
-            if not tried(is_rest, f"{name} but for {len(part.offenders)} regions", n).reason:
+            if not tried(is_rest, f"{name} without {told_regions(part.offenders)}", n).reason:
                 apart = np.array(part.offenders)
         for region in apart:
             tried(inside & (label == region), f"region {region}", n)

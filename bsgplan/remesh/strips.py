@@ -14,8 +14,9 @@ from scipy.spatial import cKDTree
 
 from ..arrays import Floats, Ints
 from ..blocks.kinds import INTERIOR
-from ..blocks.outline import outline
+from ..blocks.outline import crossings, outline
 from ..blocks.placed import PlacedMesh
+from ..mesh.edges import edge_keys
 from ..mesh.quality import corner_edge_lengths, mean_ratio, signed_areas
 from ..patterns.strip import ring_turn, strip_triangles
 from ..planning.fit import followed, misfit, searched, sequences
@@ -186,4 +187,15 @@ def _kept(points: Floats, triangles: Ints, part: PlacedMesh, log_size: Floats) -
     keys = np.concatenate([sides[:, 0] * total + sides[:, 1], sides[:, 1] * total + sides[:, 0]])
     ends = triangles[:, [[0, 1], [1, 2], [2, 0]]]
     is_chord = is_rim[ends].all(axis=2) & ~np.isin(ends[..., 0] * total + ends[..., 1], keys)
-    return triangles[(quality > POOR) & is_clear[triangles].all(axis=1) & ~is_chord.any(axis=1)]
+    kept = (quality > POOR) & is_clear[triangles].all(axis=1) & ~is_chord.any(axis=1)
+    return _apart(points, triangles[kept], sides)
+
+
+def _apart(points: Floats, triangles: Ints, rim: Ints) -> Ints:
+    """Return the triangles none of whose sides crosses that of another, or the rim."""
+    n = len(points)
+    edges = edge_keys(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), n)
+    known = np.unique(np.concatenate([edges, edge_keys(rim, n)]))
+    segments = np.column_stack(np.divmod(known, n))
+    bad = known[np.unique(crossings(points, segments))]
+    return triangles[~np.isin(edges, bad).reshape(-1, 3).any(axis=1)]

@@ -1,5 +1,6 @@
 """Replacements: the outside bit for bit, positive triangles, far fewer irregular vertices, idempotent."""
 
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -7,18 +8,19 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from predicates import assert_is_graft, assert_is_replacement
+from scipy.spatial import Delaunay
 from strategies import jittered
 from strategies import meshes as random_meshes
 
 import bsgplan
-from bsgplan.mesh import Mesh
+from bsgplan.mesh import Mesh, clean
 from bsgplan.remesh.accept import Terms, refusal
 from bsgplan.remesh.anneal import remeshed
 from bsgplan.remesh.cut import cut
 from bsgplan.remesh.graft import graft
 from bsgplan.remesh.measures import Measures, measured
 from bsgplan.remesh.replace import replace
-from bsgplan.remesh.replacement import Replacement
+from bsgplan.remesh.replacement import Part, Replacement
 from bsgplan.remesh.wish import Wish
 from bsgplan.sizing import size_field
 
@@ -92,6 +94,39 @@ def test_materials_keep_their_areas_where_the_edges_between_them_are_fixed() -> 
     assert not result.parts[0].reason
     new = result.graft.at_triangles(material)
     assert result.mesh.areas[new == 1].sum() == pytest.approx(mesh.areas[material == 1].sum(), rel=1e-12)
+
+
+def test_only_regions_that_stand_in_the_way_are_left_out_and_tried_apart(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Refused for region 2 alone: once more without it, then it alone; nothing else is tried twice."""
+    mesh = jittered(12, 12, 6)
+    label = (mesh.centroids[:, 0] // 4).astype(np.int64)
+    before = measured(mesh, np.zeros(mesh.n_points))
+    seen: list[tuple[str, set[int], int]] = []
+
+    def refused_once(task, inside, name, progress, *, n_like):
+        seen.append((name, set(np.unique(label[inside]).tolist()), n_like))
+        reason = "quality would fall in region 2" if len(seen) == 1 else ""
+        offenders = (2,) if reason else ()
+        return Part(name, before, before, reason, offenders=offenders, could_gain=bool(reason)), None
+
+    monkeypatch.setattr(sys.modules["bsgplan.remesh.replace"], "attempt", refused_once)
+    result = replace(size_field(mesh), label=label)
+    n = mesh.n_triangles
+    assert seen == [("mesh", {0, 1, 2}, n), ("mesh without region 2", {0, 1}, n), ("region 2", {2}, n)]
+    assert [part.reason for part in result.parts] == ["quality would fall in region 2", "", ""]
+
+
+def test_no_region_loses_more_than_allowed_on_a_mesh_of_good_and_poor_halves() -> None:
+    """One half jittered much, the other little: the poor half's q_min is no licence for the good one."""
+    rough, fine = jittered(20, 20, 3), jittered(20, 20, 3, jitter=0.08)
+    points = np.where((rough.points[:, :1] < 9.5), rough.points, fine.points)
+    mesh = clean(points, Delaunay(points).simplices.astype(np.int64)).mesh
+    label = (mesh.centroids[:, 0] > 9.5).astype(np.int64)
+    result = replace(size_field(mesh), label=label)
+    for _, old, new in result.regions():
+        assert new.q_min >= old.q_min - 0.02
 
 
 BEFORE = measured(jittered(8, 8, 1), np.zeros(64))

@@ -127,6 +127,19 @@ def test_strips_in_the_region_of_a_delaunay_mesh_have_a_third_of_its_irregular_v
     assert len(made.triangles) == pytest.approx(len(part.triangles), rel=0.1)
 
 
+def test_strips_keep_off_a_ragged_rim() -> None:
+    """A box across the mesh, cut along its edges: the ends have more sides than fronts there want."""
+    mesh = bsgplan.read(CASES / "transition" / "mesh.msh").mesh
+    part, log_size = part_of(mesh, triangles_inside(mesh, parse_region("0.2,0.1,1,0.9")))
+    rim = rim_of(part, log_size)
+    assert rim is not None
+    fronts = fronts_of(part, log_size, rim)
+    assert fronts.imposed()[0] > 1.2 * fronts.unimposed()[0]
+    made = stripped(part, log_size)
+    assert made is not None
+    assert_fills(part, made)
+
+
 def test_a_square_of_one_size_has_no_ends() -> None:
     assert rim_of(*part_of(jittered(9, 9, 5))) is None
 
