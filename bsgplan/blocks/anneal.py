@@ -6,6 +6,8 @@ Deterministic: the same seed gives the same layout.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
+from math import log
 
 import numpy as np
 
@@ -14,12 +16,18 @@ from .cooling import Schedule, cooled
 from .domain import Domain
 from .placed import PlacedMesh
 from .target import n_blocks
-from .weights import BEND_WEIGHT
+from .weights import BEND_WEIGHT, SIZE_WEIGHT
 
 SCHEDULE = Schedule(
-    hot=0.4, cold=0.03, moves=4, steered=8, gain=0.25, most_shift=0.1, most_size_weight=3.0
+    hot=0.4, cold=0.03, moves=8, steered=8, gain=0.25, most_shift=0.1, most_size_weight=SIZE_WEIGHT
 )  # fmt: skip
-"""How layouts are annealed."""
+"""How layouts are annealed at the default tolerance of sizes."""
+
+MOST_SIZE_WEIGHT = 3.0
+"""The most that a strict tolerance raises the weight of sizes to."""
+
+SIZE_TOLERANCE = 1.2
+"""Default tolerance: rms of log(edge / wanted) at most ln 1.2 asked for."""
 
 ROUNDS = 12
 """Rounds of remeshing before the annealing."""
@@ -42,7 +50,8 @@ def annealed(
     """Return a layout of the domain with few irregular vertices whose edges follow exp(log_size).
 
     log_size is given at the domain's points, in its own unit. effort is the number of sweeps. The rms of
-    log(edge / wanted) is asked to be at most log(size_tolerance). progress hears of the number of irregular
+    log(edge / wanted) is asked to be at most log(size_tolerance); `most_size_weight` says what that may cost
+    in irregular vertices. progress hears of the number of irregular
     vertices and the share of the work done. is_stopped is asked before every sweep; from a True on the mesh
     there is gets some cold sweeps and the polish, no more.
     """
@@ -56,7 +65,7 @@ def annealed(
         domain,
         unload(state),
         log_size,
-        SCHEDULE,
+        replace(SCHEDULE, most_size_weight=most_size_weight(size_tolerance)),
         n_sweeps=max(effort, 1),
         n_wanted=n_blocks(domain, np.exp(log_size)),
         rms_wanted=float(np.log(size_tolerance)),
@@ -68,3 +77,17 @@ def annealed(
     state = load(domain, end.mesh, log_size, seed=seed, size_weight=end.size_weight, offset=end.offset)
     polish(state, POLISH)
     return unload(state)
+
+
+def most_size_weight(size_tolerance: float) -> float:
+    """Return the largest weight of sizes for a tolerance: as the inverse square of its logarithm.
+
+    An rms of log(edge / wanted) of log(size_tolerance) then costs as much at every tolerance.
+
+    >>> most_size_weight(SIZE_TOLERANCE), most_size_weight(1.0)
+    (0.5, 3.0)
+    """
+    if size_tolerance <= 1.0:
+        return MOST_SIZE_WEIGHT
+    share = (log(SIZE_TOLERANCE) / log(size_tolerance)) ** 2
+    return min(SCHEDULE.most_size_weight * share, MOST_SIZE_WEIGHT)

@@ -86,7 +86,8 @@ def cooled(
     from .kernel.schedule import cool, falling
     from .kernel.sweeps import relax_all
 
-    offset, weight = schedule.first_shift, SIZE_WEIGHT
+    first_weight = min(SIZE_WEIGHT, schedule.most_size_weight)
+    offset, weight = schedule.first_shift, first_weight
     n_stages = min(STAGES, n_sweeps)
     for stage, part in enumerate(np.array_split(falling(schedule.hot, schedule.cold, n_sweeps), n_stages)):
         state = load(
@@ -105,7 +106,7 @@ def cooled(
             if stage >= WATCHED:
                 stray = size_rms(domain, mesh, log_size) / rms_wanted
                 weight *= float(np.clip(stray, 0.7, 1.5))
-                weight = float(np.clip(weight, SIZE_WEIGHT, schedule.most_size_weight))
+                weight = float(np.clip(weight, first_weight, schedule.most_size_weight))
         progress(f"{np.count_nonzero(mesh.is_irregular)} irregular vertices", (stage + 1) / n_stages)
         if is_stopped():
             break

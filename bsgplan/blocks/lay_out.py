@@ -10,7 +10,7 @@ import numpy as np
 from ..arrays import Bools, Ints
 from ..errors import InvalidOption
 from ..sizing import SizeField
-from .anneal import annealed
+from .anneal import SIZE_TOLERANCE, annealed
 from .domain import domain_of
 from .gridded import gridded, unbent
 from .layout import BlockGrid, BlockLayout
@@ -21,9 +21,6 @@ from .verify import verified
 
 EFFORT = 100
 """Default sweeps of the annealing."""
-
-SIZE_TOLERANCE = 1.2
-"""Default tolerance: rms of log(size / wanted) at most ln 1.2 asked for."""
 
 
 def lay_out(

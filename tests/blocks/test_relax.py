@@ -12,6 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from probes import probe
 
+from bsgplan.blocks.corners import find_corners
 from bsgplan.blocks.curve_places import CurvePlaces, side_arcs
 from bsgplan.blocks.domain import domain_of
 from bsgplan.blocks.kernel import bend, energy, relax, size_at
@@ -19,9 +20,12 @@ from bsgplan.blocks.kernel.exchange import load, unload
 from bsgplan.blocks.kernel.state import BEND, POWER, SIZE, State
 from bsgplan.blocks.kernel.sweeps import relax_all, renew
 from bsgplan.blocks.kernel.walk import locate
-from bsgplan.blocks.kinds import SLIDING
+from bsgplan.blocks.kinds import CORNER, INTERIOR, SLIDING
 from bsgplan.blocks.placed import place
 from bsgplan.blocks.smooth import qualities, smooth
+from bsgplan.mesh import Mesh
+from bsgplan.mesh.irregularity import fitted_boundary_irregularity
+from bsgplan.mesh.quality import angles
 
 HOLED = domain_of(
     domains.polygon_mesh(shapely.box(0, 0, 5, 4).difference(shapely.Point(2, 2).buffer(1)), 0.5, 5)
@@ -65,6 +69,21 @@ def _energies(state: State, t: int, v: int, step: float) -> dict[tuple[int, int]
         result[i, j] = float(triangle_energy(state, t))
     state.point[v] = here
     return result
+
+
+def test_goals_on_the_boundary_suit_the_angles_that_the_mesh_has() -> None:
+    """One triangle for 60 degrees, wherever vertices lie on their curves: the twin counts fitted ones so."""
+    is_corner, turning = find_corners(HOLED, np.full(HOLED.n_points, 0.1))
+    start = place(HOLED, is_corner, turning)
+    mesh = unload(load(HOLED, start, np.full(HOLED.n_points, np.log(0.4))))  # curves turn fast for such edges
+    twin = Mesh(mesh.points, mesh.triangles)
+    fitted = fitted_boundary_irregularity(twin.topology, angles(twin.corner_edge_lengths))
+    slides, fixed = mesh.kinds == SLIDING, mesh.kinds == CORNER
+    assert slides.sum() > 20
+    assert fixed.sum() == 4
+    assert np.array_equal((mesh.topology.valence - mesh.goals)[slides], fitted[slides])
+    assert mesh.goals[fixed] == pytest.approx(np.full(4, 2.5))
+    assert (mesh.goals[mesh.kinds == INTERIOR] == 6).all()
 
 
 def test_relaxation_only_lowers_the_energy() -> None:

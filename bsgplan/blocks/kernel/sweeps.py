@@ -2,14 +2,28 @@
 
 from __future__ import annotations
 
-from ..kinds import SLIDING
-from .compiled import compiled
+import numpy as np
+
+from ..kinds import CORNER, SLIDING
+from .compiled import compiled, inner
 from .energy import is_upright, triangle_energy, valence_energy
 from .flip import can_flip, flip
 from .journal import begin, commit, rollback
 from .relax import relax_vertex
-from .size_at import goal_on_curve, look_up
-from .state import DELTA, ENERGY, GOAL, KIND, N_TRIANGLES, N_VERTICES, OVERFLOW, TRIANGLE, VALENCE, State
+from .size_at import look_up
+from .state import (
+    CURVE,
+    DELTA,
+    ENERGY,
+    GOAL,
+    KIND,
+    N_TRIANGLES,
+    N_VERTICES,
+    OVERFLOW,
+    TRIANGLE,
+    VALENCE,
+    State,
+)
 
 GAIN = 1e-9
 """A flip must lower the energy by more than this."""
@@ -33,9 +47,47 @@ def prepare(state: State) -> None:
     for v in range(state.counter[N_VERTICES]):
         if state.vertex[v, TRIANGLE] >= 0:
             look_up(state, v)
-            if state.vertex[v, KIND] == SLIDING:
-                state.value[v, GOAL] = goal_on_curve(state, v)
+    _fit_goals(state)
     renew(state)
+
+
+@inner
+def _fit_goals(state: State) -> None:
+    """Give the vertices on the boundary the valences that suit their angles: a triangle for 60 degrees."""
+    for v in range(state.counter[N_VERTICES]):
+        if _is_fitted(state, v):
+            state.value[v, GOAL] = 0.0
+    for t in range(state.counter[N_TRIANGLES]):
+        if state.triangle[t, 0] < 0:
+            continue
+        for i in range(3):
+            v = state.triangle[t, i]
+            if _is_fitted(state, v):
+                state.value[v, GOAL] += _angle(
+                    state, v, state.triangle[t, (i + 1) % 3], state.triangle[t, (i + 2) % 3]
+                )
+    for v in range(state.counter[N_VERTICES]):
+        if _is_fitted(state, v):
+            fitting = 1.0 + state.value[v, GOAL] / (np.pi / 3.0)
+            state.value[v, GOAL] = max(3.0, np.rint(fitting)) if state.vertex[v, KIND] == SLIDING else fitting
+
+
+@inner
+def _is_fitted(state: State, v: int) -> bool:
+    """Return True for vertices that slide on the boundary and its corners, False on interfaces and inside."""
+    kind = state.vertex[v, KIND]
+    if state.vertex[v, TRIANGLE] < 0 or (kind != SLIDING and kind != CORNER):
+        return False
+    c = state.vertex[v, CURVE]
+    return c >= 0 and state.curve[c, 3] == 0
+
+
+@inner
+def _angle(state: State, v: int, a: int, b: int) -> float:
+    """Return the angle at v from a to b, radians, negative where clockwise."""
+    ux, uy = state.point[a, 0] - state.point[v, 0], state.point[a, 1] - state.point[v, 1]
+    vx, vy = state.point[b, 0] - state.point[v, 0], state.point[b, 1] - state.point[v, 1]
+    return np.arctan2(ux * vy - uy * vx, ux * vx + uy * vy)
 
 
 @compiled
