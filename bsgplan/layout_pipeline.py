@@ -11,8 +11,9 @@ from math import isqrt
 import numpy as np
 
 from .blocks.advice import advice
+from .blocks.anneal import SIZE_TOLERANCE
 from .blocks.domain import domain_of
-from .blocks.lay_out import EFFORT, SIZE_TOLERANCE, lay_out
+from .blocks.lay_out import EFFORT, lay_out
 from .io import MeshFile
 from .laid_out import Features, find_features, lay_out_with
 from .laid_out.specks import without_specks

@@ -27,7 +27,7 @@ DOCS = ROOT / "docs"
 EXAMPLES = DOCS / "examples"
 PICTURES = DOCS / "pictures"
 
-COLORS = 256
+COLORS = 128
 """Colours of a picture: with a palette that covers rare colours too, a file is a quarter as large."""
 
 REFINEMENTS = 5

@@ -19,7 +19,7 @@ from .target import n_blocks
 from .weights import BEND_WEIGHT, SIZE_WEIGHT
 
 SCHEDULE = Schedule(
-    hot=0.4, cold=0.03, moves=8, steered=8, gain=0.25, most_shift=0.1, most_size_weight=SIZE_WEIGHT
+    hot=0.4, cold=0.03, moves=8, steered=8, gain=0.4, most_shift=0.2, most_size_weight=SIZE_WEIGHT
 )  # fmt: skip
 """How layouts are annealed at the default tolerance of sizes."""
 
