@@ -43,9 +43,8 @@ def notes(replacement: Replacement) -> tuple[str, ...]:
         told.append("stopped early")
     if tried:
         gone = sum(part.strips.gone for part in replacement.parts if not part.reason)
-        told.append(
-            f"strips of fronts: tried in {tried} of the regions, better in {kept}, irregular {-gone:+d}"
-        )
+        less = f", {gone} irregular vertices less" if kept else ""
+        told.append(f"strips of fronts: the better start in {kept} of {tried} clear transitions{less}")
     return tuple(told)
 
 
