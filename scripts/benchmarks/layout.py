@@ -30,6 +30,7 @@ from bsgplan.blocks.measures import (
 )
 from bsgplan.errors import LayoutRefused
 from bsgplan.io import read_lonlat
+from bsgplan.laid_out.specks import without_specks
 from bsgplan.sizing import SizeField, size_field
 
 from .cost import cpu_of
@@ -69,7 +70,8 @@ def rows(*, only: str = "", seeds: int = 3, effort: int = EFFORT) -> Iterator[Ro
 def case_rows(case: Case, *, seeds: int, effort: int = EFFORT) -> Iterator[Row]:
     """Measure one case: layouts of some seeds, gmsh's run beside the one of the median count."""
     path = _folder(case) / case.path
-    size = size_field((read_lonlat if case.is_lonlat else bsgplan.read)(path).mesh)
+    mesh_file = (read_lonlat if case.is_lonlat else bsgplan.read)(path)
+    _, size = without_specks(mesh_file, size_field(mesh_file.mesh), side=case.side)  # as the command does
     try:
         outcomes = _outcomes(case, size, seeds, effort)
     except LayoutRefused as refusal:
