@@ -139,7 +139,8 @@ def domain_of(mesh: Mesh, *, interfaces: Bools | None = None, kept: Ints | None 
             "project it (--lonlat for degrees)"
         )
     cells = unfolded(mesh)
-    fan = topology(mesh.triangles[cells], mesh.n_points).corner_fan
+    is_whole = len(cells) == mesh.n_triangles
+    fan = (mesh.topology if is_whole else topology(mesh.triangles[cells], mesh.n_points)).corner_fan
     source = np.empty(int(fan.max()) + 1, dtype=np.int64)
     source[fan] = mesh.triangles[cells]
     low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)

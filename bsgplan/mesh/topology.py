@@ -8,13 +8,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from ..arrays import Bools, Ints, grouped
 from ..errors import InvalidMesh
+
+Small: TypeAlias = NDArray[np.int32 | np.int64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,27 +158,46 @@ def topology(cells: Ints, n_points: int) -> Topology:
     [[0, 1], [0, 2], [1, 2], [1, 3], [2, 3]]
     """
     n_corners = cells.shape[1]
-    start = cells.ravel()
-    end = np.roll(cells, -1, axis=1).ravel()
-    low, high = np.minimum(start, end), np.maximum(start, end)
-    order, _ = grouped(high, n_points)
-    order = order[grouped(low[order], n_points)[0]]  # by the smaller end, then the larger, then the cell
-    low, high = low[order], high[order]
+    order, low, high = _by_ends(cells, n_points)
     is_new = np.ones(len(order), dtype=bool)
     is_new[1:] = (low[1:] != low[:-1]) | (high[1:] != high[:-1])
     first = np.flatnonzero(is_new)
     count = np.diff(first, append=len(order))
-    edges = np.column_stack([low[first], high[first]])
+    edges = np.empty((len(first), 2), dtype=np.int64)
+    edges[:, 0], edges[:, 1] = low[first], high[first]
+    del low, high  # of large meshes every array counts here
     if len(count) and count.max() > 2:
         raise InvalidMesh(_non_manifold(edges, count))
     cell_edges = np.empty(len(order), dtype=np.int64)
-    cell_edges[order] = np.cumsum(is_new) - 1
+    cell_edges[order] = np.cumsum(is_new, dtype=order.dtype) - 1
     cell_of_rank = order // n_corners
     edge_cells = np.full((len(edges), 2), -1, dtype=np.int64)
     edge_cells[:, 0] = cell_of_rank[first]
     is_inner = count == 2
     edge_cells[is_inner, 1] = cell_of_rank[first[is_inner] + 1]
     return Topology(cells, n_points, edges, cell_edges.reshape(cells.shape), edge_cells)
+
+
+def _by_ends(cells: Ints, n_points: int) -> tuple[Small, Small, Small]:
+    """Return the sides of all cells by their smaller end, then their larger, then the cell, and these ends.
+
+    (n_cells * n_corners,) each; short integers where the mesh allows.
+    """
+    small = np.int32 if max(cells.size, n_points) < np.iinfo(np.int32).max else np.int64
+    start = cells.astype(small)
+    end = np.roll(start, -1, axis=1)
+    low, high = np.minimum(start, end).ravel(), np.maximum(start, end).ravel()
+    del start, end
+    order = _sorted_places(high, n_points)
+    order = order[_sorted_places(low[order], n_points)]
+    return order, low[order], high[order]
+
+
+def _sorted_places(values: Small, n: int) -> Small:
+    """Return the stable order of integers 0 .. n - 1; linear in time."""
+    place = np.arange(len(values), dtype=values.dtype)
+    ones = np.ones(len(values), dtype=np.int8)
+    return np.asarray(coo_array((ones, (values, place)), shape=(n, len(values))).tocsr().indices)
 
 
 def connected_labels(links: Ints, n_nodes: int) -> Ints:
