@@ -103,6 +103,7 @@ def plan_sizes(
 
     def plan_at(n: int) -> Plan:
         progress(f"planning with {n} triangles per block")
+        limited = None if is_drawn else boundary_limited_blocks(field, n)  # the hungriest, while little is held
         if is_drawn:
             regions = drawn(n)
         else:
@@ -112,7 +113,7 @@ def plan_sizes(
             tris_per_block=n,
             objective=objective,
             gradient_limit=gradient_limit,
-            boundary_limited=None if is_drawn else boundary_limited_blocks(field, n),
+            boundary_limited=limited,
         )
 
     if n_blocks is not None:
