@@ -103,7 +103,7 @@ def plan_sizes(
 
     def plan_at(n: int) -> Plan:
         progress(f"planning with {n} triangles per block")
-        limited = None if is_drawn else boundary_limited_blocks(field, n)  # the hungriest, while little is held
+        limited = None if is_drawn else boundary_limited_blocks(field, n)  # hungry: while little is held
         if is_drawn:
             regions = drawn(n)
         else:
