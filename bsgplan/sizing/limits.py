@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -11,6 +11,9 @@ from ..mesh import Mesh
 from ..mesh.operators import corner_means
 from ..mesh.quality import lengths as lengths_of
 from .field import EQUILATERAL, SizeField
+
+AT_ONCE = 1 << 15
+"""Points of a wave that are handed on at a time: their links stay in a processor's cache."""
 
 
 def limit_gradient(mesh: Mesh, size: Floats, slope: float) -> Floats:
@@ -27,14 +30,15 @@ def limit_gradient(mesh: Mesh, size: Floats, slope: float) -> Floats:
     steps, result = slope * lengths, np.array(size, dtype=np.float64)
     front = np.arange(mesh.n_points)
     while len(front):  # the wave runs once as many links as the limit reaches: a few block edges
-        count = start[front + 1] - start[front]
-        link = np.repeat(start[front] - np.cumsum(count) + count, count) + np.arange(count.sum())
-        reached, value = others[link], np.repeat(result[front], count) + steps[link]
-        is_less = value < result[reached]
-        reached = reached[is_less]
-        np.minimum.at(result, reached, value[is_less])
         is_lowered = np.zeros(mesh.n_points, dtype=bool)
-        is_lowered[reached] = True
+        for part in np.array_split(front, 1 + len(front) // AT_ONCE):
+            count = start[part + 1] - start[part]
+            link = np.repeat(start[part] - np.cumsum(count) + count, count) + np.arange(count.sum())
+            reached, value = others[link], np.repeat(result[part], count) + steps[link]
+            is_less = value < result[reached]
+            reached = reached[is_less]
+            np.minimum.at(result, reached, value[is_less])
+            is_lowered[reached] = True
         front = np.flatnonzero(is_lowered)
     return result
 
@@ -57,8 +61,18 @@ def _count(size: SizeField, triangle_size: Floats, inside: Bools) -> float:
     return float((size.mesh.areas / (EQUILATERAL * triangle_size**2))[inside].sum())
 
 
-@lru_cache(maxsize=1)
+_KNOWN: WeakKeyDictionary[Mesh, tuple[Ints, Ints, Floats]] = WeakKeyDictionary()
+"""The links of the meshes that are alive: a domain is asked for several slopes, then both are let go."""
+
+
 def _links(mesh: Mesh) -> tuple[Ints, Ints, Floats]:
+    """Return what `_linked` gives, known from the first time on."""
+    if mesh not in _KNOWN:
+        _KNOWN[mesh] = _linked(mesh)
+    return _KNOWN[mesh]
+
+
+def _linked(mesh: Mesh) -> tuple[Ints, Ints, Floats]:
     """Return the points linked to each point, by an edge or the diagonal of a pair of triangles.
 
     Where those of each point begin, (n_points + 1,), the points, and the lengths of the links.
@@ -72,8 +86,13 @@ def _links(mesh: Mesh) -> tuple[Ints, Ints, Floats]:
     )
     lengths = np.concatenate([mesh.edge_lengths, _across(*(points[i] for i in (*tips.T, *edges.T)))])
     links = np.concatenate([topology.edges, tips])
+    del edges, first, second, around, tips
     order, begin = grouped(links, mesh.n_points)
-    return begin, links[order // 2, 1 - order % 2], lengths[order // 2]
+    order ^= 1  # the other end
+    others = links.ravel()[order]
+    del links
+    order >>= 1
+    return begin, others, lengths[order]
 
 
 def _across(start: Floats, end: Floats, a: Floats, b: Floats) -> Floats:
