@@ -23,6 +23,9 @@ from .target import n_blocks
 ROUNDS = 3
 """Repairs one after the other; each begins with what the one before left, until one does not help."""
 
+PATIENCE = 8
+"""Rounds before them for broken blocks alone, which would be refused: mild ones, nothing else is stirred."""
+
 SHRINK = 0.6
 """The wanted block edge at a poor block is lowered by this factor, ..."""
 
@@ -46,32 +49,57 @@ GAIN = 0.01
 
 
 def repaired(grid: BlockGrid, *, seed: int) -> BlockGrid:
-    """Return the grid, or a better one if some of its triangles are poor."""
-    best, current = grid, grid
+    """Return the grid, or a better one if some of its triangles are inverted, cross or are poor."""
+    best = current = _mended(grid, seed)
     for turn in range(ROUNDS):
         poor = poor_blocks(current)
         if not len(poor):
             break
-        layout = _lowered(current.layout, poor)
-        log_size = np.log(layout.target.length / layout.domain.scale)
-        blocks = _quenched(layout.domain, layout.placed, log_size, seed + turn)
-        current = gridded(replace(layout, placed=blocks), is_straight=grid.is_straight)
+        current = _remade(current, poor, seed + turn, n_coarsenings=ROUNDS)
         if _merit(current) <= (_merit(best)[0], _merit(best)[1] + GAIN):
             break
         best = current
     return best
 
 
-def poor_blocks(grid: BlockGrid) -> Ints:
-    """Return the blocks that are inverted, cross others at the boundary or have a triangle under POOR."""
+def _mended(grid: BlockGrid, seed: int) -> BlockGrid:
+    """Return the grid with broken blocks made smaller by themselves, as far as that helps."""
+    best = current = grid
+    for turn in range(PATIENCE):
+        broken = broken_blocks(current)
+        if not len(broken):
+            return current
+        current = _remade(current, broken, seed + turn, n_coarsenings=0)
+        best = max(best, current, key=_merit)
+    return best
+
+
+def broken_blocks(grid: BlockGrid) -> Ints:
+    """Return the blocks that are inverted, have an inverted triangle, or cross others at the boundary."""
     blocks = grid.layout.placed
-    is_poor = qualities(blocks) <= 0
+    is_broken = qualities(blocks) <= 0
     crossing, domain = crossings(blocks.points, outline(blocks)), grid.layout.domain
     if len(crossing) > len(crossings(domain.points, outline_of(domain))):
         at_boundary, _ = np.nonzero(blocks.neighbours < 0)  # in the order of the outline
-        is_poor[at_boundary[crossing.ravel()]] = True
+        is_broken[at_boundary[crossing.ravel()]] = True
+    is_broken[grid.block[qualities(grid.placed) <= 0]] = True
+    return np.flatnonzero(is_broken)
+
+
+def poor_blocks(grid: BlockGrid) -> Ints:
+    """Return the blocks that are broken or have a triangle under POOR."""
+    is_poor = np.zeros(len(grid.layout.placed.triangles), dtype=bool)
+    is_poor[broken_blocks(grid)] = True
     is_poor[grid.block[qualities(grid.placed) < POOR]] = True
     return np.flatnonzero(is_poor)
+
+
+def _remade(grid: BlockGrid, some: Ints, seed: int, *, n_coarsenings: int) -> BlockGrid:
+    """Return the grid of blocks annealed anew in the cold, smaller ones wanted round some."""
+    layout = _lowered(grid.layout, some)
+    log_size = np.log(layout.target.length / layout.domain.scale)
+    blocks = _quenched(layout.domain, layout.placed, log_size, seed, n_coarsenings)
+    return gridded(replace(layout, placed=blocks), is_straight=grid.is_straight)
 
 
 def _merit(grid: BlockGrid) -> tuple[int, float]:
@@ -103,14 +131,16 @@ def _lowered(layout: BlockLayout, poor: Ints) -> BlockLayout:
     return replace(layout, target=replace(target, length=domain.scale * own_length, blocks=counts))
 
 
-def _quenched(domain: Domain, blocks: PlacedMesh, log_size: Floats, seed: int) -> PlacedMesh:
+def _quenched(
+    domain: Domain, blocks: PlacedMesh, log_size: Floats, seed: int, n_coarsenings: int
+) -> PlacedMesh:
     """Return blocks remeshed towards the wanted size where they are off it, and annealed in the cold."""
     from .kernel.coarsen import coarsen
     from .kernel.exchange import load, unload
     from .kernel.schedule import cool, polish
 
     state = load(domain, blocks, log_size, seed=seed)
-    coarsen(state, ROUNDS)
+    coarsen(state, n_coarsenings)
     cool(state, [COLD] * SWEEPS, len(blocks.triangles))
     polish(state, POLISH)
     return unload(state)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import domains
 import numpy as np
 import pytest
@@ -12,8 +14,9 @@ from bsgplan.blocks import BlockGrid, lay_out
 from bsgplan.blocks.smooth import qualities
 from bsgplan.blocks.verify import verify
 from bsgplan.errors import InvalidOption
+from bsgplan.io import read
 from bsgplan.mesh import Mesh, clean
-from bsgplan.sizing import SizeField
+from bsgplan.sizing import SizeField, size_field
 
 SQUARE = domains.grid_mesh(12, 12)
 X, Y = SQUARE.points.T
@@ -106,6 +109,13 @@ def test_weak_spots_get_a_valid_grid(name: str, coarse: float) -> None:
     """Ears, islands of three edges, channels of one triangle, slits, wanted blocks larger than all of it."""
     mesh = weak_domains()[name]
     grid = laid_out(mesh, coarse * float(mesh.edge_lengths.mean()))
+    assert verify(grid).is_valid
+    assert qualities(grid.placed).min() > 0
+
+
+def test_blocks_that_cross_are_mended_by_themselves(meshes: Path) -> None:
+    """Fjords one triangle wide: two blocks of the first layout cross over land, the others are sound."""
+    grid = lay_out(size_field(read(meshes / "north_sea.msh").mesh), tris_per_block=16, seed=7)
     assert verify(grid).is_valid
     assert qualities(grid.placed).min() > 0
 
