@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cache
 
 import numpy as np
 
@@ -74,7 +76,12 @@ def target_of(domain: Domain, size: SizeField, side: int, *, gradient_limit: flo
     wanted = side * h
     length = wanted
     plain, is_small = n_blocks(domain, wanted), _is_small(domain, wanted)
-    smooth = gradient_limit or _slope(domain, wanted)
+
+    @cache
+    def n_limited(slope: float) -> float:
+        return n_blocks(domain, limit_gradient(domain.mesh, wanted, slope))
+
+    smooth = gradient_limit or _slope(plain, n_limited)
     across = channel_limit(domain, wanted)
     for floor in FLOORS:
         least = np.where(is_small, SMALL_FLOOR, max(floor, 1 / side))  # no edge shorter than the input's
@@ -86,7 +93,7 @@ def target_of(domain: Domain, size: SizeField, side: int, *, gradient_limit: flo
     is_corner, turning = find_corners(domain, length)
     blocks = {
         "resolution": plain,
-        "gradient": n_blocks(domain, limit_gradient(domain.mesh, wanted, slope)),
+        "gradient": n_limited(slope),
         "boundary": n_blocks(domain, length),
     }
     return Target(side, length * domain.scale, is_corner, turning, slope, rough, blocks)
@@ -125,11 +132,13 @@ def _is_small(domain: Domain, wanted: Floats) -> Bools:
     return result
 
 
-def _slope(domain: Domain, wanted: Floats) -> float:
-    """Return the first of SLOPES that costs at most COST in blocks, the last if none does."""
-    plain = n_blocks(domain, wanted)
+def _slope(plain: float, n_limited: Callable[[float], float]) -> float:
+    """Return the first of SLOPES that costs at most COST in blocks, the last if none does.
+
+    plain is the number of blocks without a limit, n_limited that with the gradient limited to a slope.
+    """
     for slope in SLOPES[:-1]:
-        if n_blocks(domain, limit_gradient(domain.mesh, wanted, slope)) <= COST * plain:
+        if n_limited(slope) <= COST * plain:
             return slope
     return SLOPES[-1]
 

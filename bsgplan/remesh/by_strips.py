@@ -21,7 +21,7 @@ from ..blocks.weights import BEND_WEIGHT
 from ..mesh import Mesh
 from ..regions.borders import corner_shares, smooth_borders
 from ..regions.labels import connected
-from .mend import holders, lacks, patch_of, spliced
+from .mend import holders, patch_of, spliced, worst_lack
 from .polish import polished
 from .strips import stripped
 from .wish import Wish
@@ -116,7 +116,7 @@ def _is_better(
     domain: Domain, made: PlacedMesh, now: PlacedMesh, log_size: Floats, wish: Wish, n_wanted: float
 ) -> bool:
     off = [abs(len(mesh.triangles) / n_wanted - 1) for mesh in (made, now)]
-    lack = [float(lacks(domain, mesh, wish.least).max()) for mesh in (made, now)]
+    lack = [worst_lack(domain, mesh, wish.least) for mesh in (made, now)]
     if off[0] > max(off[1], wish.tolerance) or lack[0] > max(lack[1], 0.0):
         return False
     if size_rms(domain, made, log_size) > max(size_rms(domain, now, log_size), wish.size_misfit):

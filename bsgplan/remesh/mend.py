@@ -10,8 +10,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from ..arrays import Bools, Floats, Ints
 from ..blocks.anneal import POLISH
@@ -19,7 +17,8 @@ from ..blocks.domain import Domain
 from ..blocks.kinds import FROZEN, FROZEN_SIDE
 from ..blocks.placed import PlacedMesh, grown
 from ..blocks.smooth import qualities
-from ..mesh.topology import topology
+from ..mesh.edges import edge_keys
+from ..mesh.topology import connected_labels, topology
 
 TURNS = ((3, 0.6), (4, 0.2), (4, 0.05), (6, 0.2))
 """Rings of triangles around a poor one that are annealed, and the weight of irregular vertices there."""
@@ -59,7 +58,7 @@ def mended(
         for number, centre in enumerate(spots(mesh, lacks(domain, mesh, least), n_rings)):
             patch = patch_of(mesh, around(mesh, centre, n_rings))
             made = annealed(domain, patch.mesh, log_size, seed + 1000 * turn + number, offset, weight)
-            if lacks(domain, made, least).max() < lacks(domain, patch.mesh, least).max():
+            if worst_lack(domain, made, least) < worst_lack(domain, patch.mesh, least):
                 better.append((patch, made))
         mesh = spliced(mesh, better)
     return mesh
@@ -68,6 +67,11 @@ def mended(
 def lacks(domain: Domain, mesh: PlacedMesh, least: Floats) -> Floats:
     """Return how far each triangle is under the mean ratio wanted where it lies, (n_triangles,)."""
     return np.asarray(least[holders(domain, mesh)] - qualities(mesh))
+
+
+def worst_lack(domain: Domain, mesh: PlacedMesh, least: Floats) -> float:
+    """Return how far the worst triangle is under what is wanted there; negative where none is."""
+    return float(lacks(domain, mesh, least).max())
 
 
 def holders(domain: Domain, mesh: PlacedMesh) -> Ints:
@@ -148,13 +152,10 @@ def spliced(mesh: PlacedMesh, parts: Sequence[tuple[Patch, PlacedMesh]]) -> Plac
 def _with_codes(old: PlacedMesh, new: PlacedMesh, number: Ints) -> PlacedMesh:
     """Return the new mesh with the codes of the old one's frozen sides, whose ends both stay."""
     triangle, side = np.nonzero(old.codes == FROZEN_SIDE)
-    ends = [number[old.triangles[triangle, (side + step) % 3]] for step in (1, 2)]
-    n = len(new.points)
-    keys = np.unique(np.minimum(*ends) * n + np.maximum(*ends))
-    a, b = new.triangles[:, [1, 2, 0]], new.triangles[:, [2, 0, 1]]
-    is_frozen = np.isin(np.minimum(a, b) * n + np.maximum(a, b), keys)
-    codes = np.where(is_frozen, FROZEN_SIDE, new.codes)
-    return replace(new, codes=codes)
+    ends = np.column_stack([number[old.triangles[triangle, (side + step) % 3]] for step in (1, 2)])
+    n, sides = len(new.points), new.triangles[:, [[1, 2], [2, 0], [0, 1]]]
+    is_frozen = np.isin(edge_keys(sides.reshape(-1, 2), n), edge_keys(ends, n)).reshape(-1, 3)
+    return replace(new, codes=np.where(is_frozen, FROZEN_SIDE, new.codes))
 
 
 def annealed(
@@ -188,8 +189,7 @@ def spots(mesh: PlacedMesh, lack: Floats, n_rings: int) -> Floats:
     place[chosen] = np.arange(len(chosen))
     pair = mesh.topology.neighbours
     pair = place[pair[near[pair].all(axis=1)]]
-    graph = coo_array((np.ones(len(pair)), (pair[:, 0], pair[:, 1])), shape=(len(chosen), len(chosen)))
-    spot = connected_components(graph, directed=False)[1][place[poor]]
+    spot = connected_labels(pair, len(chosen))[place[poor]]
     order = np.argsort(-lack[poor], kind="stable")
     _, first = np.unique(spot[order], return_index=True)
     worst = poor[order[np.sort(first)]][:MOST_SPOTS]

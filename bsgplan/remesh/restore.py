@@ -6,6 +6,8 @@ them and the rim of a patch is closed by constrained Delaunay triangles, and the
 
 from __future__ import annotations
 
+from operator import itemgetter
+
 import numpy as np
 
 from ..arrays import Bools, Floats
@@ -14,7 +16,7 @@ from ..blocks.kinds import FROZEN, INTERIOR
 from ..blocks.outline import outline
 from ..blocks.placed import PlacedMesh, grown
 from .gaps import closed, within
-from .mend import Patch, annealed, around, holders, lacks, patch_of, spliced, spots
+from .mend import Patch, annealed, around, holders, lacks, patch_of, spliced, spots, worst_lack
 
 RINGS = ((2, 3), (4, 2), (3, 2), (6, 3), (2, 3), (4, 2), (3, 3), (10, 4))
 """Rings of old triangles that are put back, and rings round them in which the gap is closed, turn by turn:
@@ -48,9 +50,9 @@ def restored(
             if begun is None:
                 continue
             made = annealed(domain, begun, log_size, seed + 1000 * turn + number, offset, WEIGHT)
-            now = lacks(domain, patch.mesh, least).max()
-            made = min(made, begun, key=lambda tried: lacks(domain, tried, least).max())
-            if lacks(domain, made, least).max() < now:
+            tried = [(worst_lack(domain, one, least), one) for one in (made, begun)]
+            lack, made = min(tried, key=itemgetter(0))
+            if lack < worst_lack(domain, patch.mesh, least):
                 better.append((patch, made))
         mesh = spliced(mesh, better)
     return mesh

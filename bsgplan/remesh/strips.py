@@ -182,11 +182,10 @@ def _kept(points: Floats, triangles: Ints, part: PlacedMesh, log_size: Floats) -
     is_clear[inner] = away > CLEARANCE * np.exp(log_size[rim[nearest]])
     areas = signed_areas(points, triangles)
     quality = mean_ratio(np.maximum(areas, 0.0), corner_edge_lengths(points, triangles))
-    total = len(points)
     sides = outline(part)
-    keys = np.concatenate([sides[:, 0] * total + sides[:, 1], sides[:, 1] * total + sides[:, 0]])
     ends = triangles[:, [[0, 1], [1, 2], [2, 0]]]
-    is_chord = is_rim[ends].all(axis=2) & ~np.isin(ends[..., 0] * total + ends[..., 1], keys)
+    is_side = np.isin(edge_keys(ends.reshape(-1, 2), len(points)), edge_keys(sides, len(points)))
+    is_chord = is_rim[ends].all(axis=2) & ~is_side.reshape(-1, 3)
     kept = (quality > POOR) & is_clear[triangles].all(axis=1) & ~is_chord.any(axis=1)
     return _apart(points, triangles[kept], sides)
 

@@ -9,13 +9,11 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from ..arrays import Floats
 from ..mesh import Mesh, quality
 from ..mesh.irregularity import fitted_boundary_irregularity, genus
-from ..mesh.topology import Topology
+from ..mesh.topology import Topology, connected_labels
 from .quad_report import quad_rows
 from .rows import Row, plain_irregularity, shown_irregularity, shown_share
 from .table import Column, Table
@@ -77,9 +75,7 @@ def vertex_lengths(topo: Topology, edge_lengths: Floats) -> Floats:
 
 def n_vertex_components(topo: Topology) -> int:
     """Return the number of components that hang together at least by a vertex."""
-    links = (np.ones(len(topo.edges), dtype=np.int8), (topo.edges[:, 0], topo.edges[:, 1]))
-    graph = coo_array(links, shape=(topo.n_points, topo.n_points))
-    return int(connected_components(graph, directed=False)[0])
+    return int(connected_labels(topo.edges, topo.n_points).max(initial=-1)) + 1
 
 
 def rows(mesh: Mapping[str, Any]) -> list[Row]:
