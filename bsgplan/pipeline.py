@@ -18,6 +18,7 @@ import numpy as np
 import shapely
 from shapely.geometry.base import BaseGeometry
 
+from . import memory
 from .arrays import Bools, sums_by
 from .blocks.domain import domain_of
 from .blocks.target import target_of
@@ -38,6 +39,7 @@ from .result import PlannedMesh
 from .sizing import SizeField, named_size_field, size_field
 
 
+@memory.reused()
 def plan_blocks(
     mesh_file: MeshFile,
     *,

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import Bools, Ints
+from ..mesh.topology import Topology, next_corner
 from .chains import chain
 
 
@@ -26,36 +27,28 @@ class Curves:
     """Points where curves end or meet, (n_points,)."""
 
 
-def find_curves(
-    triangles: Ints, side_edges: Ints, edges: Ints, is_line: Bools, is_boundary: Bools
-) -> tuple[Curves, Ints]:
-    """Return the curves of the marked edges, and the code of each triangle side, (n_triangles, 3).
+def find_curves(topology: Topology, is_line: Bools) -> tuple[Curves, Ints]:
+    """Return the curves of the marked edges, and the code of the side opposite each corner, (n_triangles, 3).
 
-    side_edges is the edge opposite each corner. A code is 2 c on a side along curve c, 2 c + 1 against it,
-    -1 on no curve. A junction is a point with other than two marked edges.
+    is_line is one value an edge. A code is 2 c on a side along curve c, 2 c + 1 against it, -1 on no curve.
+    A junction is a point with other than two marked edges.
     """
-    n_points = int(edges.max()) + 1
-    directed = edges.copy()
-    triangle, side = np.nonzero(is_boundary[side_edges])
-    edge = side_edges[triangle, side]
-    directed[edge, 0] = triangles[triangle, (side + 1) % 3]
-    directed[edge, 1] = triangles[triangle, (side + 2) % 3]
-    marked = np.flatnonzero(is_line)
-    ends = directed[marked]
-    is_junction = ~np.isin(np.bincount(ends.ravel(), minlength=n_points), (0, 2))
-    nodes, walked, along, first, is_closed = _walk(ends, is_boundary[marked], is_junction)
+    corners, marked = topology.cells.ravel(), np.flatnonzero(is_line)
+    sides, ends = topology.edge_sides[marked], topology.edges[marked]
+    is_boundary = sides[:, 1] < 0
+    rim = sides[is_boundary, 0]
+    ends[is_boundary] = np.column_stack([corners[rim], corners[next_corner(rim, 3)]])
+    is_junction = ~np.isin(np.bincount(ends.ravel(), minlength=topology.n_points), (0, 2))
+    nodes, walked, along, first, is_closed = _walk(ends, is_boundary, is_junction)
     curve = np.repeat(np.arange(len(first) - 1), np.diff(first) - 1)
-    code_of_edge = np.full(len(edges), -1, dtype=np.int64)
-    code_of_edge[marked[walked]] = 2 * curve
-    run_along = np.zeros((len(edges), 2), dtype=np.int64)
-    run_along[marked[walked]] = np.where(along[:, None], ends[walked], ends[walked][:, ::-1])
-    code = code_of_edge[side_edges]
-    is_against = run_along[side_edges][..., 0] != triangles[:, [1, 2, 0]]
-    is_inside = ~is_boundary[marked[walked]][first[:-1] - np.arange(len(first) - 1)]
-    return (
-        Curves(nodes, first, is_closed, is_inside, is_junction),
-        np.where(code >= 0, code + is_against, -1),
-    )
+    start = np.where(along, ends[walked, 0], ends[walked, 1])
+    code = np.full(len(corners), -1, dtype=np.int64)
+    for side in sides[walked].T:
+        there = np.flatnonzero(side >= 0)
+        code[side[there]] = 2 * curve[there] + (corners[side[there]] != start[there])
+    is_inside = ~is_boundary[walked][first[:-1] - np.arange(len(first) - 1)]
+    codes = np.roll(code.reshape(-1, 3), -1, axis=1)  # the side opposite corner i starts at corner i + 1
+    return Curves(nodes, first, is_closed, is_inside, is_junction), codes
 
 
 def _walk(ends: Ints, is_boundary: Bools, is_junction: Bools) -> tuple[Ints, Ints, Bools, Ints, Bools]:

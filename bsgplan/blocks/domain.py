@@ -15,8 +15,8 @@ import numpy as np
 from ..arrays import Bools, Floats, Ints, sums_by
 from ..errors import InvalidMesh
 from ..mesh import Mesh
-from ..mesh.quality import angles, corner_edge_lengths
-from ..mesh.topology import topology
+from ..mesh.quality import angles
+from ..mesh.topology import next_corner, topology
 from .curves import Curves, find_curves
 
 
@@ -24,10 +24,9 @@ from .curves import Curves, find_curves
 class Domain:
     """A triangulated domain of the plane with its curves, in coordinates of its own."""
 
-    points: Floats
-    """Coordinates, (n_points, 2), about 1 across; one point a fan, so that no boundary touches itself."""
-    triangles: Ints
-    """Three corners, counter-clockwise, and the neighbours opposite them (-1 none), (n_triangles, 6)."""
+    mesh: Mesh
+    """The triangulation in the coordinates of the input, one point a fan, so that no boundary touches itself:
+    the input itself where nothing was split or left out."""
     side_codes: Ints
     """Curve of the side opposite each corner, (n_triangles, 3): 2 c along it, 2 c + 1 against, -1 none."""
     lines: Curves
@@ -44,25 +43,27 @@ class Domain:
     @property
     def n_points(self) -> int:
         """Number of points."""
-        return len(self.points)
+        return self.mesh.n_points
 
     @cached_property
-    def mesh(self) -> Mesh:
-        """The triangulation as a mesh, in the domain's own coordinates."""
-        return Mesh(self.points, self.triangles[:, :3])
+    def points(self) -> Floats:
+        """Coordinates, (n_points, 2), about 1 across."""
+        return (self.mesh.points - self.origin) / self.scale
+
+    @cached_property
+    def triangles(self) -> Ints:
+        """Three corners, counter-clockwise, and the neighbours opposite them (-1 none), (n_triangles, 6)."""
+        return np.column_stack([self.mesh.triangles, np.roll(self.mesh.topology.across, -1, axis=1)])
 
     @cached_property
     def areas(self) -> Floats:
         """Area of each triangle, (n_triangles,), in the domain's own unit squared."""
-        a, b, c = self.points[self.triangles[:, :3]].swapaxes(0, 1)
-        u, v = b - a, c - a
-        return np.asarray(0.5 * (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]))
+        return self.mesh.areas / self.scale**2
 
     @cached_property
     def boundary_angle(self) -> Floats:
         """Sum of the triangles' angles at each point, (n_points,), radians."""
-        corners = self.triangles[:, :3]
-        return sums_by(corners, angles(corner_edge_lengths(self.points, corners)), self.n_points)
+        return sums_by(self.mesh.triangles, angles(self.mesh.corner_edge_lengths), self.n_points)
 
     @cached_property
     def curves(self) -> Ints:
@@ -90,7 +91,7 @@ class Domain:
     def curve_triangles(self) -> Ints:
         """A triangle of the domain at each row of the curves, (k,)."""
         at = np.empty(self.n_points, dtype=np.int64)
-        at[self.triangles[:, :3].ravel()] = np.repeat(np.arange(len(self.triangles)), 3)
+        at[self.mesh.triangles.ravel()] = np.repeat(np.arange(self.mesh.n_triangles), 3)
         return at[self.lines.nodes]
 
     @cached_property
@@ -113,14 +114,17 @@ class Domain:
         result[self.lines.nodes[rows]] = self.curve_points[rows, 2]
         return result
 
-    @cached_property
+    @property
     def is_boundary(self) -> Bools:
         """Points on the boundary of the domain, (n_points,)."""
-        result = np.zeros(self.n_points, dtype=bool)
-        triangle, side = np.nonzero(self.triangles[:, 3:] < 0)
-        for step in (1, 2):
-            result[self.triangles[triangle, (side + step) % 3]] = True
-        return result
+        return self.mesh.topology.is_boundary
+
+    @property
+    def outline(self) -> Ints:
+        """Boundary edges from point to point, the domain on their left, (n_boundary_edges, 2)."""
+        topology = self.mesh.topology
+        start = topology.edge_sides[topology.is_boundary_edge, 0]
+        return topology.cells.ravel()[np.column_stack([start, next_corner(start, 3)])]
 
     def to_mesh(self, points: Floats) -> Floats:
         """Return coordinates of the mesh of points in the domain's own, (n, 2), length."""
@@ -138,32 +142,31 @@ def domain_of(mesh: Mesh, *, interfaces: Bools | None = None, kept: Ints | None 
             "the mesh is a surface in space, blocks are laid out in the plane; "
             "project it (--lonlat for degrees)"
         )
-    cells = unfolded(mesh)
-    is_whole = len(cells) == mesh.n_triangles
-    fan = (mesh.topology if is_whole else topology(mesh.triangles[cells], mesh.n_points)).corner_fan
-    source = np.empty(int(fan.max()) + 1, dtype=np.int64)
-    source[fan] = mesh.triangles[cells]
+    carrier, source, cells = _split(mesh)
     low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)
-    origin, scale = (low + high) / 2, float((high - low).max())
-    points = (mesh.points[source] - origin) / scale
-    split = topology(fan, len(source))
-    across = np.where(
-        split.edge_cells[split.cell_edges][..., 0] == np.arange(len(fan))[:, None],
-        split.edge_cells[split.cell_edges][..., 1],
-        split.edge_cells[split.cell_edges][..., 0],
-    )
-    opposite = [1, 2, 0]  # the side opposite corner i runs from corner i + 1 to corner i + 2
-    is_line = split.is_boundary_edge.copy()
+    is_line = carrier.topology.is_boundary_edge.copy()
     if interfaces is not None:
-        is_line[split.cell_edges] |= interfaces[mesh.topology.cell_edges[cells]]
-    side_edges = split.cell_edges[:, opposite]
-    lines, codes = find_curves(fan, side_edges, split.edges, is_line, split.is_boundary_edge)
+        is_line[carrier.topology.cell_edges] |= interfaces[mesh.topology.cell_edges[cells]]
+    lines, codes = find_curves(carrier.topology, is_line)
     is_kept = np.zeros(len(source), dtype=bool)
     if kept is not None:
         is_kept[np.isin(source, kept)] = True
-    return Domain(
-        points, np.column_stack([fan, across[:, opposite]]), codes, lines, source, is_kept, origin, scale
-    )
+    return Domain(carrier, codes, lines, source, is_kept, (low + high) / 2, float((high - low).max()))
+
+
+def _split(mesh: Mesh) -> tuple[Mesh, Ints, Ints]:
+    """Return a mesh with its pinches split and its folds left out, and where its points and triangles are from.
+
+    The mesh itself where it has neither.
+    """
+    cells = unfolded(mesh)
+    if len(cells) == mesh.n_triangles and not mesh.topology.n_pinches:
+        return mesh, np.arange(mesh.n_points), cells
+    triangles = mesh.triangles[cells]
+    fan = topology(triangles, mesh.n_points).corner_fan
+    source = np.empty(int(fan.max()) + 1, dtype=np.int64)
+    source[fan] = triangles
+    return Mesh(mesh.points[source], fan), source, cells
 
 
 def unfolded(mesh: Mesh) -> Ints:

@@ -102,7 +102,7 @@ def channel_limit(domain: Domain, length: Floats) -> Floats:
     """Return CHANNEL times the width of the channel at each point of the boundary that faces another."""
     limit = np.full(domain.n_points, np.inf)
     shore = np.flatnonzero(domain.is_boundary)
-    edges, steps = domain.mesh.topology.edges, domain.mesh.edge_lengths
+    edges, steps = domain.mesh.topology.edges, domain.mesh.edge_lengths / domain.scale
     n = domain.n_points
     graph = coo_array((steps, (edges[:, 0], edges[:, 1])), shape=(n, n)).tocsr()
     away, _, nearest = dijkstra(graph, directed=False, indices=shore, min_only=True, return_predecessors=True)

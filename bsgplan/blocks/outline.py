@@ -18,12 +18,6 @@ def outline(mesh: PlacedMesh) -> Ints:
     return np.column_stack([mesh.triangles[triangle, (side + step) % 3] for step in (1, 2)])
 
 
-def outline_of(domain: Domain) -> Ints:
-    """Return the boundary edges of a domain, (n, 2)."""
-    triangle, side = np.nonzero(domain.triangles[:, 3:] < 0)
-    return np.column_stack([domain.triangles[triangle, (side + step) % 3] for step in (1, 2)])
-
-
 def curve_sides(mesh: PlacedMesh) -> tuple[Ints, Ints]:
     """Return triangle and side of each edge on a curve, once: where the triangle runs along it, (n,) each."""
     triangle, side = np.nonzero((mesh.codes >= 0) & (mesh.codes % 2 == 0))

@@ -11,14 +11,13 @@ from dataclasses import replace
 import numpy as np
 
 from ..arrays import Floats, Ints
-from ..sizing.limits import limit_gradient
 from .domain import Domain
 from .gridded import gridded
 from .layout import BlockGrid, BlockLayout
-from .outline import crossings, outline, outline_of
+from .outline import crossings, outline
 from .placed import PlacedMesh
 from .smooth import POOR, qualities
-from .target import n_blocks
+from .target import limited, n_blocks
 
 ROUNDS = 3
 """Repairs one after the other; each begins with what the one before left, until one does not help."""
@@ -79,7 +78,7 @@ def broken_blocks(grid: BlockGrid) -> Ints:
     blocks = grid.layout.placed
     is_broken = qualities(blocks) <= 0
     crossing, domain = crossings(blocks.points, outline(blocks)), grid.layout.domain
-    if len(crossing) > len(crossings(domain.points, outline_of(domain))):
+    if len(crossing) > len(crossings(domain.points, domain.outline)):
         at_boundary, _ = np.nonzero(blocks.neighbours < 0)  # in the order of the outline
         is_broken[at_boundary[crossing.ravel()]] = True
     is_broken[grid.block[qualities(grid.placed) <= 0]] = True
@@ -126,7 +125,7 @@ def _lowered(layout: BlockLayout, poor: Ints) -> BlockLayout:
     least = LEAST * layout.size.h[domain.source]
     length = np.minimum(target.length, np.maximum(target.length * np.exp(log_factor), least))
     slope = min(target.gradient_limit, STEEPEST)
-    own_length = limit_gradient(domain.mesh, length / domain.scale, slope)
+    own_length = limited(domain, length / domain.scale, slope)
     counts = target.blocks | {"repair": n_blocks(domain, own_length)}
     return replace(layout, target=replace(target, length=domain.scale * own_length, blocks=counts))
 

@@ -79,7 +79,7 @@ def target_of(domain: Domain, size: SizeField, side: int, *, gradient_limit: flo
 
     @cache
     def n_limited(slope: float) -> float:
-        return n_blocks(domain, limit_gradient(domain.mesh, wanted, slope))
+        return n_blocks(domain, limited(domain, wanted, slope))
 
     smooth = gradient_limit or _slope(plain, n_limited)
     across = channel_limit(domain, wanted)
@@ -109,8 +109,16 @@ def _limited(
         share = np.minimum(boundary_limit(domain, wanted, h, is_corner), across) / wanted
         rough = _raggedness(domain, np.maximum(share, least))
         slope = ragged if rough > RAGGEDNESS else smooth
-        length = limit_gradient(domain.mesh, wanted * np.clip(share, least, 1.0), slope)
+        length = limited(domain, wanted * np.clip(share, least, 1.0), slope)
     return length, slope, rough
+
+
+def limited(domain: Domain, length: Floats, slope: float) -> Floats:
+    """Return the largest edge lengths below those given whose gradient nowhere exceeds slope, (n_points,).
+
+    Both in the domain's unit; see `limit_gradient`.
+    """
+    return limit_gradient(domain.mesh, length * domain.scale, slope) / domain.scale
 
 
 def n_blocks(domain: Domain, length: Floats) -> float:
@@ -119,7 +127,7 @@ def n_blocks(domain: Domain, length: Floats) -> float:
 
 
 def _blocks(domain: Domain, length: Floats) -> Floats:
-    mean = np.exp(corner_means(domain.triangles[:, :3], np.log(length)))
+    mean = np.exp(corner_means(domain.mesh.triangles, np.log(length)))
     return np.asarray(domain.areas / (EQUILATERAL * mean**2))
 
 
@@ -128,7 +136,7 @@ def _is_small(domain: Domain, wanted: Floats) -> Bools:
     component = domain.mesh.topology.component
     total = sums_by(component, _blocks(domain, wanted), int(component.max()) + 1)
     result = np.zeros(domain.n_points, dtype=bool)
-    result[domain.triangles[:, :3]] = (total < SMALL)[component][:, None]
+    result[domain.mesh.triangles] = (total < SMALL)[component][:, None]
     return result
 
 
@@ -145,8 +153,7 @@ def _slope(plain: float, n_limited: Callable[[float], float]) -> float:
 
 def _raggedness(domain: Domain, share: Floats) -> float:
     """Return the share of the boundary's length whose ends carry less than RAGGED_EDGE of the wanted edge."""
-    triangle, side = np.nonzero(domain.triangles[:, 3:] < 0)
-    a, b = (domain.triangles[triangle, (side + step) % 3] for step in (1, 2))
+    a, b = domain.outline.T
     steps = np.linalg.norm(domain.points[b] - domain.points[a], axis=1)
     is_ragged = np.minimum(share[a], share[b]) < RAGGED_EDGE
     return float(steps[is_ragged].sum() / steps.sum())

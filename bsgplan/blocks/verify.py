@@ -20,7 +20,7 @@ from ..mesh.topology import topology
 from .domain import Domain
 from .layout import BlockGrid, BlockLayout
 from .orientation import orientation
-from .outline import area_inside, crossings, curve_sides, distances, outline, outline_of, rounds
+from .outline import area_inside, crossings, curve_sides, distances, outline, rounds
 from .placed import PlacedMesh
 
 AREA_TOLERANCE = 1e-9
@@ -85,7 +85,7 @@ class Verdict:
 def verify(grid: BlockGrid) -> Verdict:
     """Return the verdict on a grid of blocks and on the blocks themselves."""
     domain, blocks, fine = grid.layout.domain, grid.layout.placed, grid.placed
-    own = outline_of(domain)
+    own = domain.outline
     most_crossings = len(crossings(domain.points, own))
     checks: list[Check] = []
     counts = []

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .. import memory
 from ..arrays import Floats, Ints, frozen_floats, frozen_ints
 from ..errors import InvalidMesh, MeshReadError
 from ..mesh import Mesh, clean
@@ -126,6 +127,7 @@ class MeshFile:
         }
 
 
+@memory.reused()
 def assemble(path: str, format: str, raw: RawMesh, projection: Projection | None = None) -> MeshFile:
     """Return the cleaned MeshFile of what a reader found; data and boundaries follow their points."""
     if not len(raw.triangles):

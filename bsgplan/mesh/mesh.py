@@ -57,7 +57,7 @@ class Mesh:
     @cached_property
     def corner_edge_lengths(self) -> Floats:
         """Length of the edge opposite each corner, (n_triangles, 3), length."""
-        return quality.corner_edge_lengths(self.points, self.triangles)
+        return self.edge_lengths[np.roll(self.topology.cell_edges, -1, axis=1)]
 
     @cached_property
     def areas(self) -> Floats:
@@ -73,7 +73,7 @@ class Mesh:
     def edge_lengths(self) -> Floats:
         """Length of each edge of the topology, (n_edges,), length."""
         start, end = self.topology.edges.T
-        return quality.lengths(self.points[end] - self.points[start])
+        return quality.lengths(self.points.take(end, axis=0) - self.points.take(start, axis=0))
 
     @cached_property
     def qualities(self) -> Floats:
@@ -83,7 +83,7 @@ class Mesh:
     @cached_property
     def centroids(self) -> Floats:
         """Centroid of each triangle, (n_triangles, 2 or 3), length."""
-        a, b, c = (self.points[corner] for corner in self.triangles.T)
+        a, b, c = (self.points.take(corner, axis=0) for corner in self.triangles.T)
         return (a + b + c) / 3
 
     @cached_property

@@ -15,13 +15,16 @@ from .mesh import Mesh
 def gradient(mesh: Mesh, values: Floats) -> Floats:
     """Return the gradient of vertex values in each triangle, (n_triangles, 2 or 3), value/length."""
     a, b, c = mesh.triangles.T
-    u, v = mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]
-    along_u, along_v = values[b] - values[a], values[c] - values[a]
+    start = values[a]
+    along_u, along_v = values[b] - start, values[c] - start
     if mesh.is_planar:
-        slope = np.column_stack(
-            [along_u * v[:, 1] - along_v * u[:, 1], along_v * u[:, 0] - along_u * v[:, 0]]
-        )
-        return np.asarray(slope / (2 * mesh.areas)[:, None])
+        (ux, vx), (uy, vy) = ((axis[b] - axis[a], axis[c] - axis[a]) for axis in mesh.points.T)
+        twice = 2 * mesh.areas
+        slope = np.empty((mesh.n_triangles, 2))
+        slope[:, 0] = (along_u * vy - along_v * uy) / twice
+        slope[:, 1] = (along_v * ux - along_u * vx) / twice
+        return slope
+    u, v = mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]
     uu, uv, vv = (np.einsum("ij,ij->i", p, q) for p, q in ((u, u), (u, v), (v, v)))
     slope = (vv * along_u - uv * along_v)[:, None] * u + (uu * along_v - uv * along_u)[:, None] * v
     return np.asarray(slope / (4 * mesh.areas**2)[:, None])

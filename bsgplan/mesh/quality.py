@@ -16,17 +16,22 @@ def signed_areas(points: Floats, triangles: Ints) -> Floats:
     >>> signed_areas(np.array([[0.0, 0], [1, 0], [0, 1]]), np.array([[0, 1, 2], [0, 2, 1]]))
     array([ 0.5, -0.5])
     """
+    if points.shape[1] == 2:
+        x, y = (axis[triangles.T] for axis in points.T)
+        return 0.5 * ((x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]))
     a, b, c = (points[corner] for corner in triangles.T)
     u, v = b - a, c - a
-    if points.shape[1] == 2:
-        return 0.5 * (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
     return 0.5 * np.linalg.norm(np.cross(u, v), axis=1)
 
 
 def corner_edge_lengths(points: Floats, triangles: Ints) -> Floats:
     """Return the length of the edge opposite each corner, (n_triangles, 3), length."""
-    a, b, c = (points[corner] for corner in triangles.T)
-    return np.column_stack([lengths(side) for side in (c - b, a - c, b - a)])
+    squares = np.zeros(triangles.shape)
+    for axis in points.T:
+        at = axis[triangles]
+        for k in range(3):
+            squares[:, k] += (at[:, k - 1] - at[:, k - 2]) ** 2
+    return np.sqrt(squares)
 
 
 def lengths(vectors: Floats) -> Floats:
@@ -35,7 +40,11 @@ def lengths(vectors: Floats) -> Floats:
     >>> lengths(np.array([[3.0, 4.0]]))
     array([5.])
     """
-    return np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
+    first, *others = vectors.T
+    total = first * first
+    for axis in others:
+        total += axis * axis
+    return np.sqrt(total)
 
 
 def mean_ratio(areas: Floats, lengths: Floats) -> Floats:

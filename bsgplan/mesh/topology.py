@@ -33,8 +33,14 @@ class Topology:
     """End points of each edge, (n_edges, 2), smaller index first, sorted."""
     cell_edges: Ints
     """Edge from corner i to corner i + 1 of each cell, (n_cells, n_corners)."""
-    edge_cells: Ints
-    """The one or two cells of each edge, (n_edges, 2); -1 where there is no second."""
+    edge_sides: Ints
+    """The one or two sides of cells along each edge, (n_edges, 2): side i of cell c, from its corner i to i + 1,
+    is n_corners c + i; -1 where there is no second."""
+
+    @cached_property
+    def edge_cells(self) -> Ints:
+        """The one or two cells of each edge, (n_edges, 2); -1 where there is no second."""
+        return self.edge_sides // self.cells.shape[1]
 
     @cached_property
     def is_boundary_edge(self) -> Bools:
@@ -64,12 +70,23 @@ class Topology:
         return self.edge_cells[np.flatnonzero(~self.is_boundary_edge)]
 
     @cached_property
+    def tips(self) -> Ints:
+        """The vertices opposite each interior edge, in its first and its second triangle, (n_interior_edges, 2)."""
+        sides = self.edge_sides.take(np.flatnonzero(~self.is_boundary_edge), axis=0)
+        return self.cells.ravel()[next_corner(next_corner(sides, 3), 3)]
+
+    @cached_property
     def across(self) -> Ints:
         """Cell across each edge of each cell, (n_cells, n_corners); -1 where there is none."""
-        first, second = self.edge_cells.T
-        own = np.arange(len(self.cells))
-        columns = [np.where(first[e] == own, second[e], first[e]) for e in self.cell_edges.T]
-        return np.column_stack(columns)
+        return (self._opposite_side // self.cells.shape[1]).reshape(self.cells.shape)
+
+    @cached_property
+    def _opposite_side(self) -> Ints:
+        """The other side along the edge of each side, (n_cells * n_corners,); -1 at the boundary."""
+        result = np.full(self.cells.size, -1, dtype=np.int64)
+        first, second = self.edge_sides[np.flatnonzero(~self.is_boundary_edge)].T
+        result[first], result[second] = second, first
+        return result
 
     @cached_property
     def cells_around(self) -> tuple[Ints, Ints]:
@@ -93,25 +110,57 @@ class Topology:
 
         Splitting each vertex into its fans removes every pinch.
         """
-        n_corners = self.cells.shape[1]
-        inner = np.flatnonzero(~self.is_boundary_edge)
-        sides = np.full((len(self.edges), 2), -1, dtype=np.int64)
-        flat = self.cell_edges.ravel()
-        cell = np.repeat(np.arange(len(self.cells)), n_corners)
-        is_first = self.edge_cells[flat, 0] == cell
-        sides[flat[is_first], 0] = np.flatnonzero(is_first)
-        sides[flat[~is_first], 1] = np.flatnonzero(~is_first)
-        first, second = sides[inner].T
-        first_next, second_next = _next_corner(first, n_corners), _next_corner(second, n_corners)
-        vertex = self.cells.ravel()
-        is_same = vertex[first] == vertex[second]  # neighbours that run along the edge the same way
-        links = np.concatenate(
-            [
-                np.column_stack([first, np.where(is_same, second, second_next)]),
-                np.column_stack([first_next, np.where(is_same, second_next, second)]),
-            ]
-        )
-        return connected_labels(links, vertex.size).reshape(self.cells.shape)
+        n_corners, vertex = self.cells.shape[1], self.cells.ravel()
+        is_used = self.n_cells_at > 0
+        fan = (np.cumsum(is_used) - 1)[vertex]
+        corners = np.flatnonzero((self._n_cells_in_a_fan() != self.n_cells_at)[vertex])
+        if len(corners):  # of pinches
+            number = np.full(len(vertex), -1)
+            number[corners] = np.arange(len(corners))
+            links = np.column_stack([np.repeat(corners, 2), self._turned(corners).ravel()])
+            own = connected_labels(number[links[links[:, 1] >= 0]], len(corners))
+            first = np.unique(own, return_index=True)[1]  # a corner of each fan ..
+            is_other = np.ones(len(first), dtype=bool)
+            is_other[np.unique(vertex[corners[first]], return_index=True)[1]] = False  # .. and of a vertex
+            further = np.count_nonzero(is_used) - 1 + np.cumsum(is_other)
+            fan[corners] = np.where(is_other, further, fan[corners[first]])[own]
+        return fan.reshape(-1, n_corners)
+
+    def _n_cells_in_a_fan(self) -> Ints:
+        """Return the cells in one fan of each vertex, (n_points,); 0 where none, or sides that run alike, are.
+
+        Turns around all vertices at once, from the first corner of an open fan, from any of a closed one.
+        """
+        vertex, across = self.cells.ravel(), self._opposite_side
+        after = _rolled(np.arange(self.cells.size), self.cells.shape[1])
+        is_alike = (vertex[across] == vertex) & (across >= 0)
+        ahead = np.where(across >= 0, after[across], -1)
+        start = np.full(self.n_points, -1)
+        start[vertex] = np.arange(len(vertex))
+        open_ends = after[across < 0]
+        start[vertex[open_ends]] = open_ends
+        start[vertex[is_alike]] = start[vertex[after[is_alike]]] = -1
+        result = np.zeros(self.n_points, dtype=np.int64)
+        turning = np.flatnonzero(start >= 0)
+        first = corner = start[turning]
+        while len(turning):
+            result[turning] += 1
+            corner = ahead[corner]
+            goes_on = np.flatnonzero((corner >= 0) & (corner != first))
+            turning, first, corner = turning.take(goes_on), first.take(goes_on), corner.take(goes_on)
+        return result
+
+    def _turned(self, corner: Ints) -> Ints:
+        """Return the corners of the same vertex across the two sides at each corner, (n, 2); -1 for none."""
+        n_corners, vertex = self.cells.shape[1], self.cells.ravel()
+        result = np.empty((len(corner), 2), dtype=np.int64)
+        before = corner + np.where(corner % n_corners == 0, n_corners - 1, -1)
+        for k, side in enumerate((corner, before)):
+            across = self._opposite_side[side]
+            is_start = vertex[across] == vertex[corner]  # else the vertex is the end of the side
+            there = np.where(is_start, across, next_corner(across, n_corners))
+            result[:, k] = np.where(across >= 0, there, -1)
+        return result
 
     @cached_property
     def n_pinches(self) -> int:
@@ -141,7 +190,7 @@ class Topology:
         order = np.argsort(self.cell_edges.ravel()[position], kind="stable")
         position = position[order]
         fan = self.corner_fan.ravel()
-        return np.column_stack([fan[position], fan[_next_corner(position, n_corners)]])
+        return np.column_stack([fan[position], fan[next_corner(position, n_corners)]])
 
     @cached_property
     def n_boundary_loops(self) -> int:
@@ -157,7 +206,6 @@ def topology(cells: Ints, n_points: int) -> Topology:
     >>> topology(np.array([[0, 1, 2], [1, 3, 2]]), 4).edges.tolist()
     [[0, 1], [0, 2], [1, 2], [1, 3], [2, 3]]
     """
-    n_corners = cells.shape[1]
     order, low, high = _by_ends(cells, n_points)
     is_new = np.ones(len(order), dtype=bool)
     is_new[1:] = (low[1:] != low[:-1]) | (high[1:] != high[:-1])
@@ -170,12 +218,10 @@ def topology(cells: Ints, n_points: int) -> Topology:
         raise InvalidMesh(_non_manifold(edges, count))
     cell_edges = np.empty(len(order), dtype=np.int64)
     cell_edges[order] = np.cumsum(is_new, dtype=order.dtype) - 1
-    cell_of_rank = order // n_corners
-    edge_cells = np.full((len(edges), 2), -1, dtype=np.int64)
-    edge_cells[:, 0] = cell_of_rank[first]
-    is_inner = count == 2
-    edge_cells[is_inner, 1] = cell_of_rank[first[is_inner] + 1]
-    return Topology(cells, n_points, edges, cell_edges.reshape(cells.shape), edge_cells)
+    edge_sides = np.empty((len(edges), 2), dtype=np.int64)
+    edge_sides[:, 0] = order[first]
+    edge_sides[:, 1] = np.where(count == 2, order[np.minimum(first + 1, len(order) - 1)], -1)
+    return Topology(cells, n_points, edges, cell_edges.reshape(cells.shape), edge_sides)
 
 
 def _by_ends(cells: Ints, n_points: int) -> tuple[Small, Small, Small]:
@@ -216,5 +262,16 @@ def _non_manifold(edges: Ints, count: Ints) -> str:
     return f"{len(bad)} non-manifold edges, the first between points {named}; an edge has two cells at most"
 
 
-def _next_corner(corner: Ints, n_corners: int) -> Ints:
-    return corner - corner % n_corners + (corner % n_corners + 1) % n_corners
+def _rolled(corners: Ints, n_corners: int) -> Ints:
+    """Return what belongs to the next corner of the same cell, given for all corners of all cells."""
+    return np.roll(corners.reshape(-1, n_corners), -1, axis=1).ravel()
+
+
+def next_corner(corner: Ints, n_corners: int) -> Ints:
+    """Return the corner after each in its cell, (n,); corner i of cell c is n_corners c + i.
+
+    >>> next_corner(np.array([0, 1, 2, 3]), 3).tolist()
+    [1, 2, 0, 4]
+    """
+    is_last = corner - n_corners * (corner // n_corners) == n_corners - 1
+    return corner + np.where(is_last, 1 - n_corners, 1)

@@ -77,16 +77,10 @@ def _linked(mesh: Mesh) -> tuple[Ints, Ints, Floats]:
 
     Where those of each point begin, (n_points + 1,), the points, and the lengths of the links.
     """
-    topology, points = mesh.topology, mesh.points
-    edges = topology.edges[np.flatnonzero(~topology.is_boundary_edge)]
-    first, second = topology.neighbours.T
-    around = edges[:, 0] + edges[:, 1]
-    tips = np.column_stack(
-        [mesh.triangles[side] @ np.ones(3, dtype=np.int64) - around for side in (first, second)]
-    )
-    lengths = np.concatenate([mesh.edge_lengths, _across(*(points[i] for i in (*tips.T, *edges.T)))])
-    links = np.concatenate([topology.edges, tips])
-    del edges, first, second, around, tips
+    topology = mesh.topology
+    inner = topology.edges.take(np.flatnonzero(~topology.is_boundary_edge), axis=0)
+    links = np.concatenate([topology.edges, topology.tips])
+    lengths = np.concatenate([mesh.edge_lengths, _across(mesh.points, topology.tips, inner)])
     order, begin = grouped(links, mesh.n_points)
     order ^= 1  # the other end
     others = links.ravel()[order]
@@ -95,19 +89,33 @@ def _linked(mesh: Mesh) -> tuple[Ints, Ints, Floats]:
     return begin, others, lengths[order]
 
 
-def _across(start: Floats, end: Floats, a: Floats, b: Floats) -> Floats:
-    """Return the lengths from tip to tip over the edges a b, (n,).
+def _across(points: Floats, tips: Ints, edges: Ints) -> Floats:
+    """Return the lengths from tip to tip over edges, (n,); both are ends of lines, (n, 2).
 
     Straight where that crosses the edge itself; elsewhere the way round over an end of it is the shortest.
     """
-    along = b - a
-    square = np.einsum("ij,ij->i", along, along)
-    near, far = (np.einsum("ij,ij->i", p - a, along) / square for p in (start, end))
-    d_near = lengths_of(start - a - near[:, None] * along)
-    d_far = lengths_of(end - a - far[:, None] * along)
-    where = (near * d_far + far * d_near) / (d_near + d_far)
-    result = lengths_of(end - start)
-    bent = np.flatnonzero((where <= 0) | (where >= 1))
-    over = [lengths_of(start[bent] - p[bent]) + lengths_of(end[bent] - p[bent]) for p in (a, b)]
+    (a, b), (start, end) = edges.T, tips.T
+    square, near, far, to_start, to_end, direct = np.zeros((6, len(edges)))
+    for axis in points.T:
+        origin = axis[a]
+        along, u, v = axis[b] - origin, axis[start] - origin, axis[end] - origin
+        square += along**2
+        near += u * along
+        far += v * along
+        to_start += u**2
+        to_end += v**2
+        direct += (u - v) ** 2
+    near /= square
+    far /= square
+    d_near, d_far = (
+        np.sqrt(np.maximum(length - share**2 * square, 0.0))
+        for length, share in ((to_start, near), (to_end, far))
+    )
+    where = near * d_far + far * d_near  # of the edge, times the sum of the two
+    bent = np.flatnonzero((where <= 0) | (where >= d_near + d_far))
+    result = np.sqrt(direct)
+    over = [
+        sum(lengths_of(points[tip[bent]] - points[corner[bent]]) for tip in (start, end)) for corner in (a, b)
+    ]
     result[bent] = np.minimum(*over)
-    return result
+    return np.asarray(result)

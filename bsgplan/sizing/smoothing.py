@@ -15,6 +15,7 @@ from scipy.sparse.linalg import LinearOperator, cg
 from ..arrays import Floats, sums_by
 from ..mesh import Mesh
 from ..mesh.operators import between_ends, cotangents
+from ..mesh.topology import next_corner
 from .diffusion import SLIVER
 
 SOLVER_TOLERANCE = 1e-4
@@ -28,24 +29,22 @@ def gradient_jumps(mesh: Mesh) -> csr_array:
     across it. Zero for a linear field, also at the wall. In cotangents: cot a + cot b for the corner opposite
     the edge a b of a triangle, -cot b for a, -cot a for b.
     """
-    topology, cotangent = mesh.topology, cotangents(mesh)
-    damping = np.minimum(mesh.qualities / SLIVER, 1.0)
-    n_edges, own = len(topology.edges), np.arange(mesh.n_triangles)
-    least = np.minimum(*damping[topology.edge_cells.T])  # of boundary edges any: they are dropped below
-    columns, values = np.empty((n_edges, 4), dtype=np.int32), np.zeros((n_edges, 4))
-    columns[:, :2] = topology.edges
-    for k, edge in enumerate(topology.cell_edges.T):
-        start, end = cotangent[:, k], cotangent[:, (k + 1) % 3]
-        is_turned = mesh.triangles[:, k] > mesh.triangles[:, (k + 1) % 3]
-        values[:, 0] -= sums_by(edge, np.where(is_turned, start, end), n_edges)
-        values[:, 1] -= sums_by(edge, np.where(is_turned, end, start), n_edges)
-        side = 2 + (topology.edge_cells[edge, 0] != own)
-        columns[edge, side] = mesh.triangles[:, (k + 2) % 3]
-        values[edge, side] = start + end
+    topology, corners = mesh.topology, mesh.triangles.ravel()
     inner = np.flatnonzero(~topology.is_boundary_edge)
-    values = values[inner] * least[inner, None]
-    rows = np.arange(0, 4 * len(inner) + 1, 4)
-    return csr_array((values.ravel(), columns[inner].ravel(), rows), shape=(len(inner), mesh.n_points))
+    n, ends = len(inner), topology.edges.take(inner, axis=0)
+    cotangent, damping = cotangents(mesh).ravel(), np.minimum(mesh.qualities / SLIVER, 1.0)
+    low, high, opposite, least = np.zeros(n), np.zeros(n), [], np.ones(n)
+    for start in topology.edge_sides.take(inner, axis=0).T:
+        at_start, at_end = cotangent[start], cotangent[next_corner(start, 3)]
+        is_along = corners[start] == ends[:, 0]
+        low -= np.where(is_along, at_end, at_start)
+        high -= np.where(is_along, at_start, at_end)
+        opposite.append(at_start + at_end)
+        least = np.minimum(least, damping[start // 3])
+    columns = np.concatenate([ends, topology.tips], axis=1, dtype=np.int32, casting="same_kind")
+    values = np.column_stack([least * value for value in (low, high, *opposite)])
+    start = np.arange(0, 4 * n + 1, 4, dtype=np.int32)
+    return csr_array((values.ravel(), columns.ravel(), start), shape=(n, mesh.n_points))
 
 
 def fit_edges(mesh: Mesh, edge_values: Floats, reach: float) -> Floats:
