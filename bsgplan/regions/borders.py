@@ -3,8 +3,8 @@
 Threshold dynamics [Merriman, Bence & Osher]: the indicator of each label is averaged over the triangles
 around the vertices, four times, and each triangle takes the label that is strongest there; ties go to the
 smaller label. All work is done within a few rings of the borders, and again only where something changed.
-Where two labels meet, the average of the label itself tells the share of each; only around junctions of
-three are there indicators of all.
+Where two labels meet, the averages of a number for each label and of its square tell which the other is and
+its share; only around junctions of three are there indicators of all.
 """
 
 from __future__ import annotations
@@ -12,17 +12,24 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
-from ..arrays import Bools, Floats, Ints, grouped, sums_by
+from ..arrays import Bools, Floats, Ints, sums_by
 from ..mesh import Mesh
 from ..mesh.quality import angles
 
 AVERAGES = 4
 """Averages, and so rings, over which a label is felt."""
 
-THIRD = 1e-14
-"""Share of the square of the largest label by which rounding may hide a third label."""
+GOLDEN = (np.sqrt(5) - 1) / 2
+"""Label k has the number k + (k GOLDEN mod 1) / 2: no mean of some looks like another one, all are .5 apart."""
+
+FELT = 0.1
+"""A spread below this, of at most .4 of others .5 apart, leaves a triangle its own label."""
+
+CLEAR = 1e-6
+"""The other label is known where its number is met to this; else there are three."""
 
 TIE = 1e-9
 """Shares that differ by less are equal: rounding, whatever the numbering."""
@@ -43,12 +50,12 @@ def smooth_borders(mesh: Mesh, label: Ints, corner_shares: Floats, *, rounds: in
     for _ in range(rounds):
         if not len(changed):
             break
-        near = grown(mesh, changed, AVERAGES)
-        strongest = _strongest(mesh, label, near, corner_shares)
-        is_changed = strongest != label[near]
-        changed = near[is_changed]
+        patch = _Patch.around(mesh, changed, AVERAGES, corner_shares)
+        near = patch.triangles[patch.near]
+        strongest = _strongest(mesh, label, patch, corner_shares)
+        changed = near[strongest != label[near]]
         label = label.copy()
-        label[changed] = strongest[is_changed]
+        label[near] = strongest
     return _pull_teeth(mesh, label)
 
 
@@ -64,92 +71,102 @@ def corner_shares(mesh: Mesh) -> Floats:
     )
 
 
-def grown(mesh: Mesh, triangles: Ints, rings: int) -> Ints:
-    """Return the triangles and those within so many rings of vertices around them, sorted."""
+def _rings(mesh: Mesh, triangles: Ints, most: int) -> NDArray[np.int8]:
+    """Return how many rings of vertices lie between each triangle and some, (n_triangles,), most + 1 beyond."""
     around, start = mesh.topology.cells_around
-    is_in, is_reached = np.zeros(mesh.n_triangles, dtype=bool), np.zeros(mesh.n_points, dtype=bool)
-    is_in[triangles] = True
-    front = np.flatnonzero(is_in)
-    for _ in range(rings):
-        corners = mesh.triangles[front].ravel()
-        fresh = np.zeros_like(is_reached)
-        fresh[corners[~is_reached[corners]]] = True
-        is_reached |= fresh
-        vertices = np.flatnonzero(fresh)
+    ring = np.full(mesh.n_triangles, most + 1, dtype=np.int8)
+    is_reached = np.zeros(mesh.n_points, dtype=bool)
+    ring[triangles] = 0
+    front = np.flatnonzero(ring == 0)
+    for k in range(1, most + 1):
+        is_fresh = np.zeros_like(is_reached)
+        is_fresh[mesh.triangles.take(front, axis=0)] = True
+        is_fresh &= ~is_reached
+        is_reached |= is_fresh
+        vertices = np.flatnonzero(is_fresh)
         count = start[vertices + 1] - start[vertices]
         offset = np.repeat(start[vertices] - np.cumsum(count) + count, count)
         found = around[offset + np.arange(len(offset))]
-        front = found[~is_in[found]]
-        is_in[front] = True
-    return np.flatnonzero(is_in)
+        front = found[ring[found] > most]
+        ring[front] = k
+    return ring
 
 
 @dataclass(frozen=True, eq=False)
 class _Patch:
-    """Triangles around those to be decided, with an average over them as two matrices."""
+    """Some triangles and all that lie within `AVERAGES` rings of vertices around them."""
 
     triangles: Ints
+    near: Ints
+    """Which of the triangles are the ones that were asked for."""
     corners: Ints
-    """Local number of each corner, (n, 3)."""
-    gather: csr_array
-    """From triangles to vertices, weighed."""
+    """Local number of each corner, (3, n)."""
+    shares: Floats
+    """Weight of the triangle in the average around each corner, (3, n)."""
 
     @classmethod
-    def around(cls, mesh: Mesh, triangles: Ints, corner_shares: Floats) -> _Patch:
-        wide = grown(mesh, triangles, AVERAGES)
-        corners = mesh.triangles[wide]
+    def around(cls, mesh: Mesh, triangles: Ints, rings: int, shares: Floats) -> _Patch:
+        """Return the patch of the triangles within so many rings around some."""
+        ring = _rings(mesh, triangles, rings + AVERAGES)
+        wide = np.flatnonzero(ring <= rings + AVERAGES)
+        corners = mesh.triangles.take(wide, axis=0).T
         is_used = np.zeros(mesh.n_points, dtype=bool)
-        is_used[corners.ravel()] = True
-        corners = (np.cumsum(is_used) - 1)[corners]
-        n_vertices = int(np.count_nonzero(is_used))
-        order, start = grouped(corners, n_vertices)
-        entries = (corner_shares[wide].ravel()[order], order // 3, start)
-        return cls(wide, corners, csr_array(entries, shape=(n_vertices, len(wide))))
+        is_used[corners] = True
+        number = np.cumsum(is_used) - 1
+        near = np.flatnonzero(ring[wide] <= rings)
+        return cls(wide, near, number[corners], np.ascontiguousarray(shares.take(wide, axis=0).T))
+
+    @property
+    def n_vertices(self) -> int:
+        return int(self.corners.max()) + 1
 
     def averaged(self, values: Floats) -> Floats:
-        a, b, c = self.corners.T
+        """Return the averages of one value a triangle, (n,)."""
+        n, (a, b, c) = self.n_vertices, self.corners
         for _ in range(AVERAGES):
-            at_vertices = self.gather @ values
+            at_vertices = sums_by(self.corners, self.shares * values, n)
             values = at_vertices[a] + at_vertices[b] + at_vertices[c]
         return values
 
-    def extremes(self, label: Ints) -> tuple[Ints, Ints]:
-        low, high, start = label, label, self.gather.indptr[:-1]
-        a, b, c = self.corners.T
-        for _ in range(AVERAGES):
-            least = np.minimum.reduceat(low[self.gather.indices], start)
-            most = np.maximum.reduceat(high[self.gather.indices], start)
-            low = np.minimum(np.minimum(least[a], least[b]), least[c])
-            high = np.maximum(np.maximum(most[a], most[b]), most[c])
-        return low, high
 
-
-def _strongest(mesh: Mesh, label: Ints, near: Ints, shares: Floats) -> Ints:
-    """Return the label that is strongest at each triangle of near, (n_near,)."""
-    patch = _Patch.around(mesh, near, shares)
+def _strongest(mesh: Mesh, label: Ints, patch: _Patch, shares: Floats) -> Ints:
+    """Return the label that is strongest at each triangle of the patch that is near, (n_near,)."""
     own = label[patch.triangles]
-    low, high = patch.extremes(own)
-    mean, square = patch.averaged(own.astype(np.float64)), patch.averaged(own.astype(np.float64) ** 2)
-    at = np.searchsorted(patch.triangles, near)
-    low, high, mean, square = low[at], high[at], mean[at], square[at]
-    of_high = (mean - low) / np.maximum(high - low, 1)
-    result = np.where(of_high > 0.5 + TIE, high, low)
-    third = square - (low + high) * mean + low * high
-    is_junction = np.abs(third) > THIRD * max(1.0, float(own.max())) ** 2
-    some = near[is_junction]
-    if len(some):
-        result[is_junction] = _strongest_of_many(_Patch.around(mesh, some, shares), label, some)
+    numbers = np.arange(own.max() + 1.0)
+    numbers += numbers * GOLDEN % 1 / 2
+    value = numbers[own]
+    mean, square = (patch.averaged(field)[patch.near] for field in (value, value**2))
+    own, value = own[patch.near], value[patch.near]
+    shift, spread = mean - value, square - (2 * mean - value) * value
+    felt = np.flatnonzero(spread > FELT)
+    shift, spread, value = shift[felt], spread[felt], value[felt]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        met = value + spread / shift  # the number of the other label, if there is one
+        other = np.where((met >= 0) & (met < len(numbers)), met, 0).astype(np.int64)
+        share = shift / (numbers[other] - value)
+    is_clear = np.abs(numbers[other] - met) < CLEAR
+    of_larger = np.where(other > own[felt], share, 1 - share)
+    smaller, larger = np.minimum(other, own[felt]), np.maximum(other, own[felt])
+    result = own.copy()
+    result[felt] = np.where(of_larger > 0.5 + TIE, larger, smaller)
+    many = felt[~is_clear]
+    if len(many):
+        some = patch.triangles[patch.near[many]]
+        result[many] = _strongest_of_many(label, _Patch.around(mesh, some, 0, shares))
     return result
 
 
-def _strongest_of_many(patch: _Patch, label: Ints, near: Ints) -> Ints:
+def _strongest_of_many(label: Ints, patch: _Patch) -> Ints:
+    """Return the label that is strongest at the near triangles of a patch, by the indicators of all labels."""
     names, local = np.unique(label[patch.triangles], return_inverse=True)
     n = len(patch.triangles)
     share = csr_array((np.ones(n), local, np.arange(n + 1)), shape=(n, len(names)))
-    spread = csr_array((np.ones(3 * n), patch.corners.ravel(), np.arange(0, 3 * n + 1, 3)))
+    start = np.arange(0, 3 * n + 1, 3)
+    spread = csr_array((np.ones(3 * n), patch.corners.T.ravel(), start), shape=(n, patch.n_vertices))
+    gather = csr_array((patch.shares.T.ravel(), spread.indices, start), shape=spread.shape).T.tocsr()
     for _ in range(AVERAGES):
-        share = csr_array(spread @ csr_array(patch.gather @ share))
-    return names[_row_argmax(csr_array(share[np.searchsorted(patch.triangles, near)]))]
+        share = csr_array(spread @ csr_array(gather @ share))
+    return names[_row_argmax(csr_array(share[patch.near]))]
 
 
 def _row_argmax(matrix: csr_array) -> Ints:
@@ -165,10 +182,12 @@ def _pull_teeth(mesh: Mesh, label: Ints) -> Ints:
     across, label = mesh.topology.across, label.copy()
     first, second = mesh.topology.neighbours.T
     is_cut = np.flatnonzero(label[first] != label[second])
-    some = np.unique(np.concatenate([first[is_cut], second[is_cut]]))
+    is_some = np.zeros(mesh.n_triangles, dtype=bool)
+    is_some[first[is_cut]] = is_some[second[is_cut]] = True
+    some = np.flatnonzero(is_some)
     idle = 0
     for turn in range(MOST_TURNS):
-        beside = across[some]
+        beside = across.take(some, axis=0)
         a, b, c = (np.where(column >= 0, label[column], -1) for column in beside.T)
         twin = np.where(a == b, a, c)
         is_tooth: Bools = ((a == twin).astype(np.int8) + (b == twin) + (c == twin) == 2) & (twin >= 0)
@@ -180,5 +199,8 @@ def _pull_teeth(mesh: Mesh, label: Ints) -> Ints:
             break
         label[pulled] = twin[is_tooth]
         further = across[pulled].ravel()
-        some = np.concatenate([some, np.setdiff1d(further[further >= 0], some)])
+        further = further[further >= 0]
+        fresh = np.unique(further[~is_some[further]])
+        is_some[fresh] = True
+        some = np.concatenate([some, fresh])
     return label

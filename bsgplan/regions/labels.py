@@ -47,11 +47,27 @@ def _dense(key: Ints) -> Ints:
 
 def connected(mesh: Mesh, label: Ints) -> Ints:
     """Return labels split into edge-connected pieces, (n_triangles,), numbered from 0."""
-    across, n = mesh.topology.across, mesh.n_triangles
-    is_link = np.column_stack([(label[column] == label) & (column >= 0) for column in across.T])
-    start = np.concatenate([[0], np.cumsum(np.count_nonzero(is_link, axis=1))])
-    links = across[is_link].astype(np.int32 if start[-1] < np.iinfo(np.int32).max else np.int64)
-    graph = csr_array((np.ones(len(links)), links, start.astype(links.dtype)), shape=(n, n))
+    across = mesh.topology.across
+    return _components(np.where((across >= 0) & (label[across] == label[:, None]), across, -1))
+
+
+def pieces(mesh: Mesh, mask: Bools) -> tuple[Ints, Ints]:
+    """Return the triangles in the mask, (n,), and the edge-connected piece of each, (n,), from 0."""
+    inside = np.flatnonzero(mask)
+    number = np.full(mesh.n_triangles + 1, -1)  # the last is that of no triangle
+    number[inside] = np.arange(len(inside))
+    return inside, _components(number[mesh.topology.across.take(inside, axis=0)])
+
+
+def _components(beside: Ints) -> Ints:
+    """Return the component of each node, (n,), from 0; beside lists its neighbours, (n, 3), -1 for none.
+
+    A node is its own neighbour where there is none, so that nothing needs counting.
+    """
+    n, size = len(beside), beside.size
+    small = np.int32 if size < np.iinfo(np.int32).max else np.int64
+    links = np.where(beside >= 0, beside, np.arange(n)[:, None]).astype(small)
+    graph = csr_array((np.ones(size), links.ravel(), np.arange(0, size + 1, 3, dtype=small)), shape=(n, n))
     return connected_components(graph, connection="strong")[1].astype(np.int64)  # symmetric: strong is weak
 
 
@@ -118,8 +134,9 @@ def _join(border: list[dict[int, int]], rim: list[int], i: int, into: int) -> No
 def _borders(mesh: Mesh, label: Ints, n: int) -> tuple[list[dict[int, int]], list[int]]:
     """Return the edges shared with each neighbour and the edges on the domain's boundary, per label."""
     topology = mesh.topology
-    pairs = label[topology.neighbours]
-    pairs = np.sort(pairs[np.flatnonzero(pairs[:, 0] != pairs[:, 1])], axis=1)
+    first, second = (label[side] for side in topology.neighbours.T)
+    is_cut = np.flatnonzero(first != second)
+    pairs = np.sort(np.column_stack([first[is_cut], second[is_cut]]), axis=1)
     key, count = np.unique(pairs[:, 0] * n + pairs[:, 1], return_counts=True)
     border: list[dict[int, int]] = [{} for _ in range(n)]
     for a, b, n_edges in zip((key // n).tolist(), (key % n).tolist(), count.tolist(), strict=True):

@@ -46,26 +46,33 @@ def plateaus(size: SizeField, *, plateau: float, spread: float, least: float) ->
     for share in (1.0, 0.5, 0.25):
         is_low = (steepness < share * plateau) | (steepness < share * DROP * beside)
         is_flat = (_at_two_corners(mesh, is_low)) & ~is_zone
-        piece = labels.connected(mesh, is_flat.astype(np.int64))
-        is_large = sums_by(piece, size.triangle_weights, int(piece.max()) + 1) >= least
-        is_zone |= is_flat & (is_large & (spread_of(piece, log_h) < spread))[piece]
+        flat, piece = labels.pieces(mesh, is_flat)
+        if not len(flat):
+            continue
+        is_large = sums_by(piece, size.triangle_weights[flat], int(piece.max()) + 1) >= least
+        is_zone[flat] = (is_large & (spread_of(piece, log_h[flat]) < spread))[piece]
     is_blurred = steepness < BLUR * _largest_beside(mesh, beside)
     return _grown(mesh, is_zone, _at_two_corners(mesh, is_blurred), log_h)
 
 
 def _grown(mesh: Mesh, is_zone: Bools, is_blurred: Bools, log_h: Floats) -> Bools:
     """Return the zones with the blurred triangles beside them whose size is nearly theirs, (n_triangles,)."""
-    piece = labels.connected(mesh, is_zone.astype(np.int64))
-    n = int(piece.max()) + 1
-    level = sums_by(piece, log_h, n) / np.bincount(piece, minlength=n)
-    zone = np.where(is_zone, piece, -1)
-    pairs = np.concatenate([mesh.topology.neighbours, mesh.topology.neighbours[:, ::-1]])
+    inside, piece = labels.pieces(mesh, is_zone)
+    if not len(inside):
+        return is_zone
+    level = sums_by(piece, log_h[inside], int(piece.max()) + 1) / np.bincount(piece)
+    zone = np.full(mesh.n_triangles + 1, -1)  # the last is that of no triangle
+    zone[inside] = piece
+    rest = np.flatnonzero(is_blurred & ~is_zone)
     for _ in range(ROUNDS):
-        inner, outer = zone[pairs[:, 0]], pairs[:, 1]
-        joins = (inner >= 0) & (zone[outer] < 0) & is_blurred[outer]
-        joins &= np.abs(log_h[outer] - level[inner]) < NEARLY
-        zone[outer[joins]] = inner[joins]
-    return np.asarray(zone >= 0)
+        found = np.full(len(rest), -1)
+        for beside in zone[mesh.topology.across.take(rest, axis=0)].T:
+            is_near = np.abs(log_h[rest] - level[beside]) < NEARLY
+            found = np.where((beside >= 0) & is_near, beside, found)
+        joins = found >= 0
+        zone[rest[joins]] = found[joins]
+        rest = rest[~joins]
+    return np.asarray(zone[:-1] >= 0)
 
 
 def _largest_beside(mesh: Mesh, values: Floats) -> Floats:

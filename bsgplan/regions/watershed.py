@@ -25,26 +25,30 @@ def basins(edges: Ints, lengths: Floats, values: Floats, persistence: float) -> 
     [0, 0, 0, 4, 4]
     """
     minimum = _descend(edges, lengths, values)
-    minima, basin = np.unique(minimum, return_inverse=True)
+    is_minimum = minimum == np.arange(len(values))
+    minima, basin = np.flatnonzero(is_minimum), (np.cumsum(is_minimum) - 1)[minimum]
     merged = _merge(edges, values, minima, basin, persistence)
     return minima[merged[basin]]
 
 
 def _descend(edges: Ints, lengths: Floats, values: Floats) -> Ints:
+    """Return the minimum below each node; of equal neighbours the first is the lower one."""
     n_nodes = len(values)
-    rank = np.empty(n_nodes, dtype=np.int64)
-    rank[np.argsort(values, kind="stable")] = np.arange(n_nodes)
-    is_down = rank[edges[:, 0]] > rank[edges[:, 1]]
-    upper = np.where(is_down, edges[:, 0], edges[:, 1])
-    lower = np.where(is_down, edges[:, 1], edges[:, 0])
-    slope = (values[upper] - values[lower]) / lengths
+    first, second = np.minimum(*edges.T), np.maximum(*edges.T)
+    rise = values[first] - values[second]
+    is_down = rise > 0
+    upper, lower = np.where(is_down, first, second), np.where(is_down, second, first)
+    slope = np.abs(rise) / lengths
     steepest = np.full(n_nodes, -np.inf)
     np.maximum.at(steepest, upper, slope)
-    is_best = slope >= steepest[upper]
-    target_rank = np.arange(n_nodes)[rank]  # each node's own rank: a minimum stays where it is
-    np.minimum.at(target_rank, upper[is_best], rank[lower[is_best]])
-    node_of_rank = np.argsort(rank)
-    target = node_of_rank[target_rank]
+    best = np.flatnonzero(slope >= steepest[upper])
+    upper, lower = upper[best], lower[best]
+    lowest = np.full(n_nodes, np.inf)  # of edges equally steep: to the lower node, to the first of equal ones
+    np.minimum.at(lowest, upper, values[lower])
+    is_lowest = values[lower] == lowest[upper]
+    target = np.full(n_nodes, n_nodes)
+    np.minimum.at(target, upper[is_lowest], lower[is_lowest])
+    target = np.where(target < n_nodes, target, np.arange(n_nodes))  # a minimum stays where it is
     while True:  # pointer jumping: the number of steps is the logarithm of the longest path
         further = target[target]
         if np.array_equal(further, target):
@@ -57,7 +61,7 @@ def _merge(edges: Ints, values: Floats, minima: Ints, basin: Ints, persistence: 
     is_border = first != second
     # edges that meet in one highest node have one height: the lower end decides, not the numbering
     first, second = first[is_border], second[is_border]
-    ends = values[edges[np.flatnonzero(is_border)]].T
+    ends = values[edges.take(np.flatnonzero(is_border), axis=0)].T
     low, high = np.minimum(*ends), np.maximum(*ends)
     pair, lowest = _lowest_of_pairs(first, second, low, high, len(minima))
     order = np.lexsort((low[lowest], high[lowest]))
