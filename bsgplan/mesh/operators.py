@@ -59,11 +59,9 @@ def edge_weights(mesh: Mesh, conductivity: Floats | None = None) -> Floats:
 
 
 def between_ends(mesh: Mesh, weights: Floats) -> csr_array:
-    """Return the upper triangular matrix with one value for each edge, (n_points, n_points)."""
-    low, high = mesh.topology.edges.T
-    start = np.concatenate([[0], np.cumsum(np.bincount(low, minlength=mesh.n_points))])
-    small = np.int32 if len(low) < np.iinfo(np.int32).max else np.int64
-    return csr_array((weights, high.astype(small), start.astype(small)), shape=(mesh.n_points, mesh.n_points))
+    """Return the symmetric matrix with the weight of each edge between its ends, (n_points, n_points)."""
+    others, edges, start = mesh.topology.links
+    return csr_array((weights[edges], others, start), shape=(mesh.n_points, mesh.n_points))
 
 
 def stiffness(mesh: Mesh, conductivity: Floats | None = None) -> csr_array:
@@ -71,9 +69,8 @@ def stiffness(mesh: Mesh, conductivity: Floats | None = None) -> csr_array:
 
     conductivity is one value c a triangle (default 1).
     """
-    upper = between_ends(mesh, -edge_weights(mesh, conductivity))
-    both = upper + upper.T
-    return csr_array(both - diags_array(both.sum(axis=1)))
+    matrix = between_ends(mesh, -edge_weights(mesh, conductivity))
+    return csr_array(matrix - diags_array(matrix.sum(axis=1)))
 
 
 def vertex_areas(mesh: Mesh) -> Floats:

@@ -89,6 +89,14 @@ class Topology:
         return result
 
     @cached_property
+    def links(self) -> tuple[Small, Small, Small]:
+        """The vertices linked to each by an edge, these edges, and where those of each begin, (n_points + 1,)."""
+        order, start = grouped(self.edges, self.n_points)
+        small = np.int32 if self.edges.size < np.iinfo(np.int32).max else np.int64
+        others = self.edges.ravel()[order ^ 1]
+        return others.astype(small), (order >> 1).astype(small), start.astype(small)
+
+    @cached_property
     def cells_around(self) -> tuple[Ints, Ints]:
         """The cells at each vertex, one after the other, and where those of each begin, (n_points + 1,)."""
         order, start = grouped(self.cells, self.n_points)

@@ -57,11 +57,13 @@ def filtered(mesh: Mesh, values: Floats, length: Floats, response: Callable[[Flo
     mass = vertex_areas(mesh)
     conductivity, bound = _bounded(mesh, length**2 * np.minimum(mesh.qualities / SLIVER, 1.0), mass)
     weights = edge_weights(mesh, conductivity) / (bound / 2)
-    upper = between_ends(mesh, -weights)
-    diagonal = sum(sums_by(end, weights, mesh.n_points) for end in mesh.topology.edges.T) - mass
-    flat = np.ascontiguousarray(values.reshape(mesh.n_points, -1))
-    result = _chebyshev_sum(upper, diagonal[:, None], mass[:, None], _series(response, bound), flat)
-    return result.reshape(values.shape)
+    diagonal = sum(sums_by(end, weights, mesh.n_points) for end in mesh.topology.edges.T) / mass - 1.0
+    matrix = between_ends(mesh, -weights)
+    matrix.data /= np.repeat(mass, np.diff(matrix.indptr))
+    series = _series(response, bound)
+    columns = values.reshape(mesh.n_points, -1).T
+    results = [_chebyshev_sum(matrix, diagonal, series, np.ascontiguousarray(column)) for column in columns]
+    return np.column_stack(results).reshape(values.shape)
 
 
 def _series(response: Callable[[Floats], Floats], bound: float) -> Floats:
@@ -74,28 +76,18 @@ def _series(response: Callable[[Floats], Floats], bound: float) -> Floats:
     return np.asarray(kept / chebyshev.chebval(-1.0, kept))
 
 
-def _chebyshev_sum(
-    upper: csr_array, diagonal: Floats, mass: Floats, coefficients: Floats, values: Floats
-) -> Floats:
-    """Return the sum of c_k T_k(B) values, B = M^-1 (U + U^T + D) with its spectrum in -1 .. 1."""
-    lower = upper.T
-
-    def product(v: Floats) -> Floats:
-        result = np.asarray(upper @ v)
-        result += lower @ v
-        result += diagonal * v
-        result /= mass
-        return result
-
-    before, now = values, product(values)
+def _chebyshev_sum(matrix: csr_array, diagonal: Floats, coefficients: Floats, values: Floats) -> Floats:
+    """Return the sum of c_k T_k(B) values, (n,), B = the matrix + D with its spectrum in -1 .. 1."""
+    before, now = values, np.asarray(matrix @ values) + diagonal * values
     result = coefficients[0] * before + coefficients[1] * now
+    matrix, diagonal = 2 * matrix, 2 * diagonal
     for c in coefficients[2:]:
-        after = product(now)
-        after *= 2
+        after = np.asarray(matrix @ now)
+        after += diagonal * now
         after -= before
         before, now = now, after
         result += c * now
-    return result
+    return np.asarray(result)
 
 
 def _bounded(mesh: Mesh, conductivity: Floats, mass: Floats) -> tuple[Floats, float]:

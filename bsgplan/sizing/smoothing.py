@@ -61,11 +61,10 @@ def fit_edges(mesh: Mesh, edge_values: Floats, reach: float) -> Floats:
     n = mesh.n_points
     degree = mesh.topology.valence
     total = sums_by(i, edge_values, n) + sums_by(j, edge_values, n)
-    upper = between_ends(mesh, np.full(len(i), 0.25))
-    lower = upper.T
+    quarters = between_ends(mesh, np.full(len(i), 0.25))
 
     def normal(v: Floats) -> Floats:
-        return np.asarray(upper @ v + lower @ v + degree / 4 * v)
+        return np.asarray(quarters @ v + degree / 4 * v)
 
     return level + _regularised(mesh, normal, degree / 4, total / 2, total / degree, reach)
 
