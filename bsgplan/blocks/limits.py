@@ -7,10 +7,10 @@ between corners one, an edge must not cut off a bay or a cape, and a channel is 
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 
 from ..arrays import Bools, Floats
+from ..mesh.operators import between_ends
 from .domain import Domain
 
 LOOP_EDGES = 5
@@ -102,21 +102,27 @@ def channel_limit(domain: Domain, length: Floats) -> Floats:
     """Return CHANNEL times the width of the channel at each point of the boundary that faces another."""
     limit = np.full(domain.n_points, np.inf)
     shore = np.flatnonzero(domain.is_boundary)
-    edges, steps = domain.mesh.topology.edges, domain.mesh.edge_lengths / domain.scale
-    n = domain.n_points
-    graph = coo_array((steps, (edges[:, 0], edges[:, 1])), shape=(n, n)).tocsr()
-    away, _, nearest = dijkstra(graph, directed=False, indices=shore, min_only=True, return_predecessors=True)
-    a, b = nearest[edges].T
-    width = away[edges[:, 0]] + away[edges[:, 1]] + steps
-    curve, arc = domain.curve_of_point, domain.arc_of_point
-    total = domain.curve_lengths[np.maximum(curve[a], 0)]
+    mesh, wanted = domain.mesh, length * domain.scale
+    away, _, nearest = dijkstra(
+        between_ends(mesh, mesh.edge_lengths),
+        indices=shore,
+        return_predecessors=True,
+        limit=2 * float(wanted[shore].max()),
+        min_only=True,
+    )
+    first, second = mesh.topology.edges.T
+    between = np.flatnonzero(nearest[first] != nearest[second])
+    between = between[np.minimum(nearest[first[between]], nearest[second[between]]) >= 0]
+    ends = mesh.topology.edges[between]
+    a, b = nearest[ends].T
+    width = away[ends].sum(axis=1) + mesh.edge_lengths[between]
+    curve, arc = domain.curve_of_point, domain.arc_of_point * domain.scale
+    total = domain.curve_lengths[curve[a]] * domain.scale
     along = np.abs(arc[a] - arc[b])
-    along = np.where(domain.lines.is_closed[np.maximum(curve[a], 0)], np.minimum(along, total - along), along)
-    faces = (a != b) & ((curve[a] != curve[b]) | (along > WINDING * width))
+    along = np.where(domain.lines.is_closed[curve[a]], np.minimum(along, total - along), along)
+    faces = (curve[a] != curve[b]) | (along > WINDING * width)
     faces &= ~(domain.lines.is_junction[a] | domain.lines.is_junction[b])
-    faces &= width < 2 * np.maximum(length[a], length[b])
-    for side in (a, b):
-        np.minimum.at(limit, side[faces], CHANNEL * width[faces])
-    for side in edges[faces].T:
-        np.minimum.at(limit, side, CHANNEL * width[faces])
+    faces &= width < 2 * np.maximum(wanted[a], wanted[b])
+    for side in (a, b, *ends.T):
+        np.minimum.at(limit, side[faces], CHANNEL * width[faces] / domain.scale)
     return limit

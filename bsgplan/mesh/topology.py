@@ -73,7 +73,7 @@ class Topology:
     def tips(self) -> Ints:
         """The vertices opposite each interior edge, in its first and its second triangle, (n_interior_edges, 2)."""
         sides = self.edge_sides.take(np.flatnonzero(~self.is_boundary_edge), axis=0)
-        return self.cells.ravel()[next_corner(next_corner(sides, 3), 3)]
+        return np.roll(self.cells, 1, axis=1).ravel()[sides]  # of the corner before the side
 
     @cached_property
     def across(self) -> Ints:
@@ -140,7 +140,7 @@ class Topology:
         Turns around all vertices at once, from the first corner of an open fan, from any of a closed one.
         """
         vertex, across = self.cells.ravel(), self._opposite_side
-        after = _rolled(np.arange(self.cells.size), self.cells.shape[1])
+        after = np.roll(np.arange(self.cells.size).reshape(self.cells.shape), -1, axis=1).ravel()
         is_alike = (vertex[across] == vertex) & (across >= 0)
         ahead = np.where(across >= 0, after[across], -1)
         start = np.full(self.n_points, -1)
@@ -268,11 +268,6 @@ def _non_manifold(edges: Ints, count: Ints) -> str:
         f"({a}, {b}) in {n} cells" for (a, b), n in zip(edges[bad[:3]], count[bad[:3]], strict=True)
     )
     return f"{len(bad)} non-manifold edges, the first between points {named}; an edge has two cells at most"
-
-
-def _rolled(corners: Ints, n_corners: int) -> Ints:
-    """Return what belongs to the next corner of the same cell, given for all corners of all cells."""
-    return np.roll(corners.reshape(-1, n_corners), -1, axis=1).ravel()
 
 
 def next_corner(corner: Ints, n_corners: int) -> Ints:

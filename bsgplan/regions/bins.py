@@ -1,6 +1,6 @@
 """Bins of log size, several a region: where each triangle's area lies between the levels it spans.
 
-Produces bin edges of all regions in one array, bins of equal weight, and the bin of every sample level.
+Produces bin edges of all regions in one array, bins of equal weight, and sums over the bins.
 """
 
 from __future__ import annotations
@@ -11,10 +11,6 @@ import numpy as np
 
 from ..arrays import Floats, Ints, grouped, sums_by
 from ..sizing import SizeField
-
-SAMPLES = 8
-"""Levels by which the span of one triangle is represented: the share of its area below a level is then
-right to a sixteenth of the triangle."""
 
 TRIANGLES_PER_BIN = 24
 """A bin holds at least so many triangles: about 30 % noise each, 6 % in the mean."""
@@ -54,7 +50,7 @@ def bin_edges(size: SizeField, label: Ints) -> tuple[Floats, Ints]:
 
 def by_level(size: SizeField, label: Ints) -> tuple[Ints, Ints]:
     """Return the triangles by label, each label's by their log size, and where those of each label begin."""
-    order = np.argsort(size.triangle_log_h)
+    order = size.finest_first
     by_label, start = grouped(label[order], int(label.max()) + 1)
     return order[by_label], start
 
@@ -62,19 +58,25 @@ def by_level(size: SizeField, label: Ints) -> tuple[Ints, Ints]:
 def sums_over_bins(
     size: SizeField, label: Ints, edges: Floats, first: Ints, values: Sequence[Floats]
 ) -> list[Floats]:
-    """Return the sums over the bins of values of the triangles, each spread over the levels it spans."""
+    """Return the sums over the bins of values of the triangles, each spread over the levels it spans.
+
+    By the area between the edges of a bin: log size is linear in a triangle. Bin by bin for all triangles at
+    once, from that of its lowest corner on.
+    """
     low, middle, high = _sorted_levels(size)
-    n_bins = int(first[-1])
-    lowest = _bins(low, label, edges, first)
-    is_one = lowest == _bins(high, label, edges, first)  # the whole triangle lies in one bin
-    one, more = np.flatnonzero(is_one), np.flatnonzero(~is_one)
-    levels = _samples(low[more], middle[more], high[more])
-    bins = [_bins(level, label[more], edges, first) for level in levels]
-    sums = []
-    for value in values:
-        total = sums_by(lowest[one], value[one], n_bins)
-        part = value[more] / SAMPLES
-        sums.append(sum((sums_by(b, part, n_bins) for b in bins), start=total))
+    bins = _bins(low, label, edges, first)
+    sums = [np.zeros(int(first[-1])) for _ in values]
+    rest, below = np.arange(len(label)), np.zeros(len(label))
+    while len(rest):
+        top = edges[bins + label[rest] + 1]
+        goes_on = (high[rest] > top) & (bins + 1 < first[label[rest] + 1])
+        share = np.ones(len(rest))
+        further = np.flatnonzero(goes_on)
+        at = rest[further]
+        share[further] = _area_below(top[further], low[at], middle[at], high[at])
+        for total, value in zip(sums, values, strict=True):
+            total += sums_by(bins, (share - below) * value[rest], len(total))
+        rest, below, bins = at, share[further], bins[further] + 1
     return sums
 
 
@@ -85,14 +87,16 @@ def _sorted_levels(size: SizeField) -> tuple[Floats, Floats, Floats]:
     return np.minimum(low, c), middle, np.maximum(high, c)
 
 
-def _samples(low: Floats, middle: Floats, high: Floats) -> list[Floats]:
-    """Return the levels below which odd 2 SAMPLES-ths of each triangle's area lie, SAMPLES of (n,)."""
-    levels = []
-    for share in (np.arange(SAMPLES) + 0.5) / SAMPLES:
-        below = low + np.sqrt(share * (middle - low) * (high - low))
-        above = high - np.sqrt((1 - share) * (high - middle) * (high - low))
-        levels.append(np.where(share * (high - low) <= middle - low, below, above))
-    return levels
+def _area_below(level: Floats, low: Floats, middle: Floats, high: Floats) -> Floats:
+    """Return the share of each triangle's area below a level between its lowest and its highest corner, (n,).
+
+    >>> _area_below(np.array([1.0, 2.0]), *np.array([[0.0, 0], [1, 1], [2, 2]]))
+    array([0.5, 1. ])
+    """
+    with np.errstate(divide="ignore", invalid="ignore"):
+        upper = 1 - (high - level) ** 2 / ((high - middle) * (high - low))
+        lower = (level - low) ** 2 / ((middle - low) * (high - low))
+    return np.asarray(np.where(level < middle, lower, np.where(level < high, upper, 1.0)))
 
 
 def _bins(levels: Floats, label: Ints, edges: Floats, first: Ints) -> Ints:

@@ -12,7 +12,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import Floats, Ints, frozen_floats, sums_by
-from ..mesh.operators import gradient
 from ..mesh.quality import lengths as lengths_of
 from ..sizing import SizeField
 from .bins import bin_edges, sums_over_bins
@@ -93,7 +92,7 @@ class Profile:
 def profiles(size: SizeField, label: Ints) -> list[Profile]:
     """Return the profile of each label, fine end first; label is one integer a triangle, 0 to n - 1."""
     edges, first = bin_edges(size, label)
-    slope = lengths_of(gradient(size.mesh, size.log_h)) * size.mesh.areas
+    slope = lengths_of(size.triangle_slope) * size.mesh.areas
     values = (size.triangle_weights, slope / size.triangle_h, slope, size.mesh.areas)
     weight, front, length, area = sums_over_bins(size, label, edges, first, values)
     result = []

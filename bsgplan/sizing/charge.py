@@ -15,7 +15,7 @@ import numpy as np
 
 from ..arrays import Floats, Ints, sums_by
 from ..mesh import Mesh
-from ..mesh.operators import gradient, to_vertices
+from ..mesh.operators import to_vertices
 from ..mesh.quality import angles, lengths
 from .diffusion import filtered, gently
 
@@ -84,5 +84,5 @@ def wide_slope(size: SizeField, reach: float = REACH) -> Floats:
     average is gentle, see `diffusion.gently`.
     """
     mesh, h = size.mesh, size.triangle_h
-    growth = to_vertices(mesh, gradient(mesh, size.log_h) * h[:, None])
+    growth = to_vertices(mesh, size.triangle_slope * h[:, None])
     return filtered(mesh, growth, reach * h, gently) / size.h[:, None]

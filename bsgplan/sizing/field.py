@@ -11,7 +11,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..arrays import Floats, frozen_floats
+from ..arrays import Floats, Ints, frozen_floats
 from ..errors import InvalidSize
 from ..mesh import Mesh
 from ..mesh.operators import corner_means, gradient, to_vertices
@@ -59,6 +59,16 @@ class SizeField:
         return corner_means(self.mesh.triangles, self.log_h)
 
     @cached_property
+    def finest_first(self) -> Ints:
+        """The triangles by their size, (n_triangles,)."""
+        return np.argsort(self.triangle_log_h)
+
+    @cached_property
+    def triangle_slope(self) -> Floats:
+        """grad(log h) of each triangle, (n_triangles, 2 or 3), 1/length."""
+        return gradient(self.mesh, self.log_h)
+
+    @cached_property
     def triangle_h(self) -> Floats:
         """Size of each triangle, (n_triangles,), length: the geometric mean of its corners."""
         return np.exp(self.triangle_log_h)
@@ -71,7 +81,7 @@ class SizeField:
     @cached_property
     def slope(self) -> Floats:
         """grad(log h) at the vertices, averaged over one local size, (n_points, 2 or 3), 1/length."""
-        slope = to_vertices(self.mesh, gradient(self.mesh, self.log_h))
+        slope = to_vertices(self.mesh, self.triangle_slope)
         return frozen_floats(diffuse(self.mesh, slope, self.triangle_h))
 
     @cached_property

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from functools import cached_property
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -26,9 +28,11 @@ def limit_gradient(mesh: Mesh, size: Floats, slope: float) -> Floats:
     >>> limit_gradient(mesh, np.array([1.0, 5.0, 1.2]), 0.5)
     array([1. , 1.5, 1.2])
     """
-    start, others, lengths = _links(mesh)
-    steps, result = slope * lengths, np.array(size, dtype=np.float64)
-    front = np.arange(mesh.n_points)
+    links, result = _links(mesh), np.array(size, dtype=np.float64)
+    front = _lowered(result, *links.ends.T, slope * links.lengths)
+    if len(front):
+        start, others, lengths = links.around
+        steps = slope * lengths
     while len(front):  # the wave runs once as many links as the limit reaches: a few block edges
         is_lowered = np.zeros(mesh.n_points, dtype=bool)
         for part in np.array_split(front, 1 + len(front) // AT_ONCE):
@@ -41,6 +45,16 @@ def limit_gradient(mesh: Mesh, size: Floats, slope: float) -> Floats:
             is_lowered[reached] = True
         front = np.flatnonzero(is_lowered)
     return result
+
+
+def _lowered(values: Floats, first: Ints, second: Ints, steps: Floats) -> Ints:
+    """Lower values over links, once each way, and return the points that were lowered."""
+    rise = values[second] - values[first]
+    steep = np.flatnonzero(np.abs(rise) > steps)
+    is_up = rise[steep] > 0
+    low, high = (np.where(is_up, *pair) for pair in ((first[steep], second[steep]), (second[steep], first[steep])))
+    np.minimum.at(values, high, values[low] + steps[steep])
+    return np.unique(high)
 
 
 def gradient_limited_blocks(size: SizeField, side: float, slope: float, inside: Bools) -> float:
@@ -61,32 +75,42 @@ def _count(size: SizeField, triangle_size: Floats, inside: Bools) -> float:
     return float((size.mesh.areas / (EQUILATERAL * triangle_size**2))[inside].sum())
 
 
-_KNOWN: WeakKeyDictionary[Mesh, tuple[Ints, Ints, Floats]] = WeakKeyDictionary()
+@dataclass(frozen=True, eq=False)
+class _Links:
+    """Pairs of points linked by an edge or the diagonal of a pair of triangles."""
+
+    ends: Ints
+    """Both points, (n, 2)."""
+    lengths: Floats
+    """Length of each link, (n,)."""
+    n_points: int
+
+    @classmethod
+    def of(cls, mesh: Mesh) -> _Links:
+        topology = mesh.topology
+        inner = topology.edges.take(np.flatnonzero(~topology.is_boundary_edge), axis=0)
+        across = _across(mesh.points, topology.tips, inner)
+        return cls(
+            np.concatenate([topology.edges, topology.tips]),
+            np.concatenate([mesh.edge_lengths, across]),
+            mesh.n_points,
+        )
+
+    @cached_property
+    def around(self) -> tuple[Ints, Ints, Floats]:
+        """Where the links of each point begin, (n_points + 1,), the points linked, the lengths of the links."""
+        order, begin = grouped(self.ends, self.n_points)
+        return begin, self.ends.ravel()[order ^ 1], self.lengths[order >> 1]
+
+
+_KNOWN: WeakKeyDictionary[Mesh, _Links] = WeakKeyDictionary()
 """The links of the meshes that are alive: a domain is asked for several slopes, then both are let go."""
 
 
-def _links(mesh: Mesh) -> tuple[Ints, Ints, Floats]:
-    """Return what `_linked` gives, known from the first time on."""
+def _links(mesh: Mesh) -> _Links:
     if mesh not in _KNOWN:
-        _KNOWN[mesh] = _linked(mesh)
+        _KNOWN[mesh] = _Links.of(mesh)
     return _KNOWN[mesh]
-
-
-def _linked(mesh: Mesh) -> tuple[Ints, Ints, Floats]:
-    """Return the points linked to each point, by an edge or the diagonal of a pair of triangles.
-
-    Where those of each point begin, (n_points + 1,), the points, and the lengths of the links.
-    """
-    topology = mesh.topology
-    inner = topology.edges.take(np.flatnonzero(~topology.is_boundary_edge), axis=0)
-    links = np.concatenate([topology.edges, topology.tips])
-    lengths = np.concatenate([mesh.edge_lengths, _across(mesh.points, topology.tips, inner)])
-    order, begin = grouped(links, mesh.n_points)
-    order ^= 1  # the other end
-    others = links.ravel()[order]
-    del links
-    order >>= 1
-    return begin, others, lengths[order]
 
 
 def _across(points: Floats, tips: Ints, edges: Ints) -> Floats:

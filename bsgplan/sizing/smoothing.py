@@ -15,7 +15,6 @@ from scipy.sparse.linalg import LinearOperator, cg
 from ..arrays import Floats, sums_by
 from ..mesh import Mesh
 from ..mesh.operators import between_ends, cotangents
-from ..mesh.topology import next_corner
 from .diffusion import SLIVER
 
 SOLVER_TOLERANCE = 1e-4
@@ -32,15 +31,17 @@ def gradient_jumps(mesh: Mesh) -> csr_array:
     topology, corners = mesh.topology, mesh.triangles.ravel()
     inner = np.flatnonzero(~topology.is_boundary_edge)
     n, ends = len(inner), topology.edges.take(inner, axis=0)
-    cotangent, damping = cotangents(mesh).ravel(), np.minimum(mesh.qualities / SLIVER, 1.0)
+    cotangent, damping = cotangents(mesh), np.minimum(mesh.qualities / SLIVER, 1.0)
+    of_start, of_end = cotangent.ravel(), np.roll(cotangent, -1, axis=1).ravel()
+    damping = np.repeat(damping, 3)
     low, high, opposite, least = np.zeros(n), np.zeros(n), [], np.ones(n)
-    for start in topology.edge_sides.take(inner, axis=0).T:
-        at_start, at_end = cotangent[start], cotangent[next_corner(start, 3)]
-        is_along = corners[start] == ends[:, 0]
+    for side in topology.edge_sides.take(inner, axis=0).T:
+        at_start, at_end = of_start[side], of_end[side]
+        is_along = corners[side] == ends[:, 0]
         low -= np.where(is_along, at_end, at_start)
         high -= np.where(is_along, at_start, at_end)
         opposite.append(at_start + at_end)
-        least = np.minimum(least, damping[start // 3])
+        least = np.minimum(least, damping[side])
     columns = np.concatenate([ends, topology.tips], axis=1, dtype=np.int32, casting="same_kind")
     values = np.column_stack([least * value for value in (low, high, *opposite)])
     start = np.arange(0, 4 * n + 1, 4, dtype=np.int32)
