@@ -22,6 +22,10 @@ from ..mesh.quality import angles
 AVERAGES = 4
 """Averages, and so rings, over which a label is felt."""
 
+REACH = 3
+"""Rings around a border in which triangles may change sides: beyond, less than half of all walks of `AVERAGES`
+steps come to the other side, as each step would have to lead straight towards it."""
+
 GOLDEN = (np.sqrt(5) - 1) / 2
 """Label k has the number k + (k GOLDEN mod 1) / 2: no mean of some looks like another one, all are .5 apart."""
 
@@ -38,25 +42,35 @@ MOST_TURNS = 20
 """Turns of pulling teeth: a long comb may leave some."""
 
 
-def smooth_borders(mesh: Mesh, label: Ints, corner_shares: Floats, *, rounds: int) -> Ints:
+def smooth_borders(
+    mesh: Mesh, label: Ints, corner_shares: Floats, *, rounds: int, settled: Ints | None = None
+) -> Ints:
     """Return labels with their borders straightened, (n_triangles,); corner_shares as below.
 
-    Threshold dynamics rounds times. Last, teeth are pulled: a triangle with two neighbours in one other
-    region joins them.
+    Threshold dynamics rounds times, beginning at the borders, or at those alone that are new or gone since
+    the labels were settled. Last, teeth are pulled: a triangle with two neighbours in one other region joins
+    them.
     """
-    first, second = mesh.topology.neighbours.T
-    is_cut = np.flatnonzero(label[first] != label[second])
-    changed = np.concatenate([first[is_cut], second[is_cut]])
+    is_stirred = _is_cut(mesh, label)
+    if settled is not None:
+        is_stirred ^= _is_cut(mesh, settled)
+    changed = mesh.topology.neighbours[np.flatnonzero(is_stirred)].ravel()
     for _ in range(rounds):
         if not len(changed):
             break
-        patch = _Patch.around(mesh, changed, AVERAGES, corner_shares)
+        patch = _Patch.around(mesh, changed, REACH, corner_shares)
         near = patch.triangles[patch.near]
         strongest = _strongest(mesh, label, patch, corner_shares)
         changed = near[strongest != label[near]]
         label = label.copy()
         label[near] = strongest
     return _pull_teeth(mesh, label)
+
+
+def _is_cut(mesh: Mesh, label: Ints) -> Bools:
+    """Return the interior edges between two labels, (n_interior_edges,)."""
+    first, second = mesh.topology.neighbours.T
+    return np.asarray(label[first] != label[second])
 
 
 def corner_shares(mesh: Mesh) -> Floats:
@@ -180,10 +194,8 @@ def _row_argmax(matrix: csr_array) -> Ints:
 
 def _pull_teeth(mesh: Mesh, label: Ints) -> Ints:
     across, label = mesh.topology.across, label.copy()
-    first, second = mesh.topology.neighbours.T
-    is_cut = np.flatnonzero(label[first] != label[second])
     is_some = np.zeros(mesh.n_triangles, dtype=bool)
-    is_some[first[is_cut]] = is_some[second[is_cut]] = True
+    is_some[mesh.topology.neighbours[np.flatnonzero(_is_cut(mesh, label))]] = True
     some = np.flatnonzero(is_some)
     idle = 0
     for turn in range(MOST_TURNS):

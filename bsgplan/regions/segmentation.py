@@ -52,10 +52,11 @@ def segment(
         return labels.merge_small(mesh, label, log_h, weight, kind=is_uniform, least=least, width=width)
 
     shares = corner_shares(mesh)
+    settled = None
     for _ in range(3):
         label = labels.finest_first(merged(label), log_h)
-        label = smooth_borders(mesh, label, shares, rounds=6)
-        label = labels.finest_first(labels.connected(mesh, label), log_h)
+        settled = smooth_borders(mesh, label, shares, rounds=18, settled=settled)
+        label = labels.finest_first(labels.connected(mesh, settled), log_h)
     label = labels.finest_first(merged(label), log_h)
     return label, _level_share(label, weight, is_zone, log_h, persistence) >= LEVEL_SHARE
 
