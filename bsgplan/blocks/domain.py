@@ -143,7 +143,7 @@ def domain_of(mesh: Mesh, *, interfaces: Bools | None = None, kept: Ints | None 
             "project it (--lonlat for degrees)"
         )
     carrier, source, cells = _split(mesh)
-    low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)
+    low, high = np.array([[axis.min(), axis.max()] for axis in mesh.points.T]).T
     is_line = carrier.topology.is_boundary_edge.copy()
     if interfaces is not None:
         is_line[carrier.topology.cell_edges] |= interfaces[mesh.topology.cell_edges[cells]]
@@ -176,14 +176,11 @@ def unfolded(mesh: Mesh) -> Ints:
     beside it: both run along their common edge the same way. Raises InvalidMesh where it is no sliver of
     the boundary.
     """
-    start = mesh.triangles
-    is_forward = start < np.roll(start, -1, axis=1)
-    edge = mesh.topology.cell_edges
-    n_forward = np.bincount(edge[is_forward], minlength=len(mesh.topology.edges))
-    is_inner = ~mesh.topology.is_boundary_edge
-    is_clash = is_inner & (n_forward != 1)
-    if not is_clash.any():
+    if not mesh.topology.runs_alike.any():
         return np.arange(mesh.n_triangles)
+    edge, is_inner = mesh.topology.cell_edges, ~mesh.topology.is_boundary_edge
+    is_clash = np.zeros(len(is_inner), dtype=bool)
+    is_clash[is_inner] = mesh.topology.runs_alike
     n_inner, n_clashes = is_inner[edge].sum(axis=1), is_clash[edge].sum(axis=1)
     is_folded = (n_clashes > 0) & (n_clashes == n_inner) & (n_inner < 3)
     beside = mesh.topology.edge_cells[is_clash]

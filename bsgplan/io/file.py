@@ -17,7 +17,6 @@ from ..arrays import Floats, Ints, frozen_floats, frozen_ints
 from ..errors import InvalidMesh, MeshReadError
 from ..mesh import Mesh, clean
 from ..mesh.check import is_planar
-from ..mesh.orient import runs_alike
 from .boundary import Boundary, n_nodes
 
 if TYPE_CHECKING:
@@ -156,7 +155,7 @@ def assemble(path: str, format: str, raw: RawMesh, projection: Projection | None
     turned = "clockwise triangle{} turned counter-clockwise"
     if not cleaned.mesh.is_planar:
         turned = "triangle{} turned to run as the others of the surface"
-    n_folds = int(np.count_nonzero(runs_alike(cleaned.mesh.topology))) if cleaned.mesh.is_planar else 0
+    n_folds = int(np.count_nonzero(cleaned.mesh.topology.runs_alike)) if cleaned.mesh.is_planar else 0
     told = {
         "cells of higher order are taken by their corners": len(raw.midside),
         f"{n_flipped} {turned.format(_s(n_flipped))}": n_flipped,

@@ -6,11 +6,12 @@ import logging
 
 import numpy as np
 
-from ..mesh.quality import stretch
 from .file import MeshFile
 
 STRETCHED = 5.0
 """Ratio of the principal stretches from which a triangle counts as stretched."""
+QUALITY = 2 * STRETCHED / (1 + STRETCHED**2)
+"""Mean ratio of such a triangle; see `bsgplan.mesh.quality.stretch`."""
 MANY = 0.02
 """Share of stretched triangles that is meant: slivers that a generator leaves are under one in a hundred,
 layers along a wall a tenth and more."""
@@ -19,7 +20,7 @@ layers along a wall a tenth and more."""
 def warn_of_stretched(mesh_file: MeshFile) -> None:
     """Warn where many triangles are stretched, as in boundary layers: plans and layouts are isotropic."""
     n_triangles = mesh_file.mesh.n_triangles
-    share = np.count_nonzero(stretch(mesh_file.mesh.qualities) > STRETCHED) / n_triangles
+    share = np.count_nonzero(mesh_file.mesh.qualities < QUALITY) / n_triangles
     if share > MANY:
         logging.getLogger("bsgplan").warning(
             "%s: %.0f %% of %d triangles are stretched over %g times, isotropy is assumed and layers along "

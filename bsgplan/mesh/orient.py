@@ -11,7 +11,7 @@ import numpy as np
 from ..arrays import Bools, Floats, Ints
 from ..errors import InvalidMesh
 from .quality import signed_areas
-from .topology import Topology, connected_labels, topology
+from .topology import connected_labels, topology
 
 
 def turned_in_plane(points: Floats, triangles: Ints) -> Bools:
@@ -36,7 +36,7 @@ def turned_in_space(triangles: Ints, n_points: int) -> Bools:
     n = len(triangles)
     neighbours = topology(triangles, n_points)
     first, second = neighbours.neighbours.T
-    is_unlike = runs_alike(neighbours)
+    is_unlike = neighbours.runs_alike
     links = np.concatenate(
         [
             np.column_stack([first, second + n * is_unlike]),
@@ -55,13 +55,3 @@ def turned_in_space(triangles: Ints, n_points: int) -> Bools:
     majority = 2 * np.bincount(piece, is_turned) > np.bincount(piece)
     return np.asarray(is_turned ^ majority[piece])
 
-
-def runs_alike(neighbours: Topology) -> Bools:
-    """Return the interior edges whose two triangles run along them the same way, (n_interior_edges,).
-
-    In a mesh of the plane, all counter-clockwise, both lie on one side of such an edge: the mesh is folded.
-    """
-    cells = neighbours.cells
-    is_forward = (cells < np.roll(cells, -1, axis=1)).ravel()
-    n_forward = np.bincount(neighbours.cell_edges.ravel(), is_forward, len(neighbours.edges))
-    return np.asarray(n_forward[~neighbours.is_boundary_edge] != 1)

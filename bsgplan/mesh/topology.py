@@ -70,6 +70,16 @@ class Topology:
         return self.edge_cells[np.flatnonzero(~self.is_boundary_edge)]
 
     @cached_property
+    def runs_alike(self) -> Bools:
+        """Interior edges whose two cells run along them the same way, (n_interior_edges,).
+
+        In a mesh of the plane, all counter-clockwise, both lie on one side of such an edge: the mesh is folded.
+        """
+        start = self.cells.ravel()
+        first, second = self.edge_sides.take(np.flatnonzero(~self.is_boundary_edge), axis=0).T
+        return np.asarray(start[first] == start[second])
+
+    @cached_property
     def tips(self) -> Ints:
         """The vertices opposite each interior edge, in its first and its second triangle, (n_interior_edges, 2)."""
         sides = self.edge_sides.take(np.flatnonzero(~self.is_boundary_edge), axis=0)
@@ -141,13 +151,13 @@ class Topology:
         """
         vertex, across = self.cells.ravel(), self._opposite_side
         after = np.roll(np.arange(self.cells.size).reshape(self.cells.shape), -1, axis=1).ravel()
-        is_alike = (vertex[across] == vertex) & (across >= 0)
         ahead = np.where(across >= 0, after[across], -1)
         start = np.full(self.n_points, -1)
         start[vertex] = np.arange(len(vertex))
         open_ends = after[across < 0]
         start[vertex[open_ends]] = open_ends
-        start[vertex[is_alike]] = start[vertex[after[is_alike]]] = -1
+        alike = np.flatnonzero(~self.is_boundary_edge)[self.runs_alike]
+        start[self.edges[alike]] = -1
         result = np.zeros(self.n_points, dtype=np.int64)
         turning = np.flatnonzero(start >= 0)
         first = corner = start[turning]

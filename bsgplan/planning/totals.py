@@ -109,4 +109,5 @@ def drivers(
 def _slope_energy(regions: Regions) -> Floats:
     """Return the integral of |grad log h|^2 over each triangle, (n_triangles,)."""
     size, mesh = regions.size, regions.size.mesh
-    return np.asarray((corner_means(mesh.triangles, size.slope) ** 2).sum(axis=1) * mesh.areas)
+    squares = sum(corner_means(mesh.triangles, component) ** 2 for component in size.slope.T)
+    return np.asarray(squares * mesh.areas)

@@ -43,7 +43,7 @@ def measure_regions(
     measured = profiles(size, inside)
     charges = region_charges(inside, size.fluxes)
     irregularity = inner_irregularity(size, inside, n)
-    is_closed = np.sum([_is_ring(size, inside, level) for level in _levels(size, inside, n)], axis=0) >= 2
+    is_closed = np.sum(_are_rings(size, inside, _levels(size, inside, n)), axis=0) >= 2
     is_monotone = _monotone(size, inside, n, persistence)
     order, start = grouped(inside, n + 1)
     corner_h = size.h[mesh.triangles]
@@ -77,20 +77,21 @@ def _levels(size: SizeField, label: Ints, n: int) -> list[Floats]:
     return [size.triangle_log_h[order[first + (share * count).astype(np.int64)]] for share in PROBES]
 
 
-def _is_ring(size: SizeField, label: Ints, level: Floats) -> Bools:
-    """Return the regions whose front at this log size never meets their rim, (n,)."""
-    n, topology = len(level), size.mesh.topology
+def _are_rings(size: SizeField, label: Ints, levels: list[Floats]) -> list[Bools]:
+    """Return the regions whose front at each of the log sizes never meets their rim, (n,) each."""
+    n, topology = len(levels[0]), size.mesh.topology
     first, second = topology.edge_cells.T
     beyond = np.where(second >= 0, label[second], -1)
-    is_rim = label[first] != beyond
-    ends = size.log_h[topology.edges[np.flatnonzero(is_rim)]].T
+    rim = np.flatnonzero(label[first] != beyond)
+    ends = size.log_h[topology.edges[rim]].T
     low, high = np.minimum(*ends), np.maximum(*ends)
-    crossings = np.zeros(n, dtype=np.int64)
-    for own in (label[first[is_rim]], beyond[is_rim]):
-        inside = (own >= 0) & (own < n)
-        cut = level[np.where(inside, own, 0)]
-        crossings += np.bincount(own[inside & (low < cut) & (cut <= high)], minlength=n)[:n]
-    return np.asarray(crossings == 0)
+    crossings = np.zeros((len(levels), n), dtype=np.int64)
+    for own in (label[first[rim]], beyond[rim]):
+        inside = np.flatnonzero((own >= 0) & (own < n))
+        own, least, most = own[inside], low[inside], high[inside]
+        for count, level in zip(crossings, levels, strict=True):
+            count += np.bincount(own[(least < level[own]) & (level[own] <= most)], minlength=n)
+    return list(crossings == 0)
 
 
 def _monotone(size: SizeField, label: Ints, n: int, persistence: float) -> Bools:
@@ -118,7 +119,7 @@ def _cut_apart(mesh: Mesh, label: Ints) -> tuple[Ints, Floats, Ints, Ints]:
     on_border = np.flatnonzero((second >= 0) & (label[first] != label[second]))
     edge = np.concatenate([np.arange(len(first)), on_border])
     side = label[np.concatenate([first, second[on_border]])]
-    ends = topology.edges[edge]
+    ends = topology.edges.take(edge, axis=0)
     owner = np.empty(n, dtype=np.int64)
     owner[mesh.triangles.ravel()] = np.repeat(label, 3)  # any of its labels: the node of the others is new
     is_other = owner[ends] != side[:, None]

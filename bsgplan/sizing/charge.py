@@ -37,21 +37,29 @@ def edge_fluxes(size: SizeField) -> Floats:
     angle that is missing at corner i, so that a closed one has -6 chi in all.
     """
     mesh, slope = size.mesh, wide_slope(size)
-    corners = mesh.triangles.T
-    points, slopes = [mesh.points[c] for c in corners], [slope[c] for c in corners]
-    if not mesh.is_planar:
-        normal = np.cross(points[1] - points[0], points[2] - points[0])
-        normal /= lengths(normal)[:, None]
-    flux = np.empty(mesh.triangles.shape)
-    for k in range(3):
-        along, both = points[(k + 1) % 3] - points[k], slopes[(k + 1) % 3] + slopes[k]
-        if mesh.is_planar:
-            flux[:, k] = (along[:, 1] * both[:, 0] - along[:, 0] * both[:, 1]) / 2
-        else:
-            flux[:, k] = np.einsum("ti,ti->t", np.cross(along, normal), both) / 2
-    if not mesh.is_planar:
-        flux = _balanced(mesh, flux) + _corner_curvature(mesh)
+    flux = _planar_fluxes(mesh, slope) if mesh.is_planar else _surface_fluxes(mesh, slope)
     return np.asarray(-3 / np.pi * flux)
+
+
+def _planar_fluxes(mesh: Mesh, slope: Floats) -> Floats:
+    """Return the flux of the slope through corner edges outwards, (n_triangles, 3)."""
+    (x, y), (p, q) = (([axis[mesh.triangles.T] for axis in vectors.T]) for vectors in (mesh.points, slope))
+    flux = np.empty(mesh.triangles.shape)
+    for k, after in enumerate((1, 2, 0)):
+        flux[:, k] = (y[after] - y[k]) * (p[after] + p[k]) - (x[after] - x[k]) * (q[after] + q[k])
+    return np.asarray(flux / 2)
+
+
+def _surface_fluxes(mesh: Mesh, slope: Floats) -> Floats:
+    """Return the flux of the slope through corner edges outwards, and the curvature of the corners."""
+    points, slopes = ([vectors[c] for c in mesh.triangles.T] for vectors in (mesh.points, slope))
+    normal = np.cross(points[1] - points[0], points[2] - points[0])
+    normal /= lengths(normal)[:, None]
+    flux = np.empty(mesh.triangles.shape)
+    for k, after in enumerate((1, 2, 0)):
+        along, both = points[after] - points[k], slopes[after] + slopes[k]
+        flux[:, k] = np.einsum("ti,ti->t", np.cross(along, normal), both) / 2
+    return _balanced(mesh, flux) + _corner_curvature(mesh)
 
 
 def _balanced(mesh: Mesh, flux: Floats) -> Floats:

@@ -11,7 +11,7 @@ from strategies import meshes
 import bsgplan
 from bsgplan.errors import InvalidMesh
 from bsgplan.mesh import clean
-from bsgplan.mesh.orient import runs_alike, turned_in_plane, turned_in_space
+from bsgplan.mesh.orient import turned_in_plane, turned_in_space
 from bsgplan.mesh.topology import topology
 
 TETRAHEDRON = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
@@ -53,7 +53,7 @@ def test_surfaces_come_out_all_one_way_and_whole_components_stay(data):
         inside = mesh.topology.component == piece
         assert len(set(now_turned[inside].tolist())) == 1
         assert 2 * np.count_nonzero(found[inside]) <= np.count_nonzero(inside)
-    assert not runs_alike(topology(np.where(found[:, None], mixed[:, ::-1], mixed), mesh.n_points)).any()
+    assert not topology(np.where(found[:, None], mixed[:, ::-1], mixed), mesh.n_points).runs_alike.any()
     assert np.array_equal(turned_in_plane(mesh.points, mixed), is_turned)
 
 
@@ -68,7 +68,7 @@ def test_a_moebius_strip_is_refused_and_a_band_is_not():
 def test_a_fold_shows_where_both_triangles_lie_on_one_side():
     points = np.array([[0.0, 0], [1, 0], [0, 1], [0.2, 0.9]])
     mesh = clean(points, np.array([[0, 1, 2], [0, 1, 3]])).mesh
-    assert np.count_nonzero(runs_alike(mesh.topology)) == 1
+    assert np.count_nonzero(mesh.topology.runs_alike) == 1
 
 
 def test_the_bunny_is_turned_back_to_what_it_was(shared):
@@ -78,4 +78,4 @@ def test_the_bunny_is_turned_back_to_what_it_was(shared):
     mixed = np.where(is_turned[:, None], mesh.triangles[:, ::-1], mesh.triangles)
     cleaned = clean(mesh.points, mixed)
     assert cleaned.n_flipped == np.count_nonzero(is_turned)
-    assert not runs_alike(cleaned.mesh.topology).any()
+    assert not cleaned.mesh.topology.runs_alike.any()
