@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +11,7 @@ from scipy.sparse import coo_array
 Floats: TypeAlias = NDArray[np.float64]
 Ints: TypeAlias = NDArray[np.int64]
 Bools: TypeAlias = NDArray[np.bool_]
+Value = TypeVar("Value", bound=np.generic)
 
 RELATIVE_TOLERANCE = 1e-12
 """Two lengths of one mesh that differ by less than this share of its extent are equal: a few hundred
@@ -44,9 +45,25 @@ def grouped(index: Ints, n: int) -> tuple[Ints, Ints]:
     [[1, 0, 2], [0, 1, 3]]
     """
     index = index.ravel()
-    position = np.arange(len(index))
-    by_index = coo_array((np.ones(len(index), np.int8), (index, position)), shape=(n, len(index))).tocsr()
-    return by_index.indices.astype(np.int64), by_index.indptr.astype(np.int64)
+    order, _, start = by_row(index, np.arange(len(index)), np.empty(len(index), dtype=np.int8), n)
+    return order.astype(np.int64), start.astype(np.int64)
+
+
+def by_row(
+    rows: Ints, columns: Ints, values: NDArray[Value], n: int
+) -> tuple[NDArray[np.integer], NDArray[Value], NDArray[np.integer]]:
+    """Return the columns and values of entries by their rows 0 .. n - 1, and where each row begins, (n + 1,).
+
+    Entries of one row keep their order; linear in time. Whole numbers are short where they can be.
+
+    >>> columns, values, start = by_row(np.array([1, 0, 1]), np.array([5, 3, 4]), np.ones(3), 2)
+    >>> columns.tolist(), start.tolist()
+    ([3, 5, 4], [0, 1, 3])
+    """
+    entries = coo_array((values, (rows, columns)), shape=(n, int(columns.max(initial=0)) + 1))
+    entries.has_canonical_format = True  # neither sorted further nor summed
+    table = entries.tocsr()
+    return table.indices, table.data, table.indptr
 
 
 def sums_by(index: Ints, values: Floats, n: int) -> Floats:

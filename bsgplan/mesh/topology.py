@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from ..arrays import Bools, Ints, grouped
+from ..arrays import Bools, Ints, by_row
 from ..errors import InvalidMesh
 
 Small: TypeAlias = NDArray[np.int32 | np.int64]
@@ -101,16 +101,17 @@ class Topology:
     @cached_property
     def links(self) -> tuple[Small, Small, Small]:
         """The vertices linked to each by an edge, these edges, and where those of each begin, (n_points + 1,)."""
-        order, start = grouped(self.edges, self.n_points)
-        small = np.int32 if self.edges.size < np.iinfo(np.int32).max else np.int64
-        others = self.edges.ravel()[order ^ 1]
-        return others.astype(small), (order >> 1).astype(small), start.astype(small)
+        low, high = self.edges.T
+        edges = np.tile(np.arange(len(low), dtype=_small(self.edges.size)), 2)
+        return by_row(np.concatenate([high, low]), np.concatenate([low, high]), edges, self.n_points)
 
     @cached_property
-    def cells_around(self) -> tuple[Ints, Ints]:
+    def cells_around(self) -> tuple[Small, Small]:
         """The cells at each vertex, one after the other, and where those of each begin, (n_points + 1,)."""
-        order, start = grouped(self.cells, self.n_points)
-        return order // self.cells.shape[1], start
+        cells = np.repeat(np.arange(len(self.cells)), self.cells.shape[1])
+        nothing = np.empty(len(cells), dtype=np.int8)
+        around, _, start = by_row(self.cells.ravel(), cells, nothing, self.n_points)
+        return around, start
 
     @cached_property
     def component(self) -> Ints:
@@ -247,8 +248,7 @@ def _by_ends(cells: Ints, n_points: int) -> tuple[Small, Small, Small]:
 
     (n_cells * n_corners,) each; short integers where the mesh allows.
     """
-    small = np.int32 if max(cells.size, n_points) < np.iinfo(np.int32).max else np.int64
-    start = cells.astype(small)
+    start = cells.astype(_small(max(cells.size, n_points)))
     end = np.roll(start, -1, axis=1)
     low, high = np.minimum(start, end).ravel(), np.maximum(start, end).ravel()
     del start, end
@@ -260,8 +260,12 @@ def _by_ends(cells: Ints, n_points: int) -> tuple[Small, Small, Small]:
 def _sorted_places(values: Small, n: int) -> Small:
     """Return the stable order of integers 0 .. n - 1; linear in time."""
     place = np.arange(len(values), dtype=values.dtype)
-    ones = np.ones(len(values), dtype=np.int8)
-    return np.asarray(coo_array((ones, (values, place)), shape=(n, len(values))).tocsr().indices)
+    return by_row(values, place, np.empty(len(values), dtype=np.int8), n)[0]
+
+
+def _small(largest: int) -> type[np.int32 | np.int64]:
+    """Return the shortest type of whole numbers up to the largest."""
+    return np.int32 if largest < np.iinfo(np.int32).max else np.int64
 
 
 def connected_labels(links: Ints, n_nodes: int) -> Ints:

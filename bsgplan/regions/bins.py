@@ -93,10 +93,11 @@ def _area_below(level: Floats, low: Floats, middle: Floats, high: Floats) -> Flo
     >>> _area_below(np.array([1.0, 2.0]), *np.array([[0.0, 0], [1, 1], [2, 2]]))
     array([0.5, 1. ])
     """
+    is_lower = level < middle
+    tip = np.where(is_lower, low, high)
     with np.errstate(divide="ignore", invalid="ignore"):
-        upper = 1 - (high - level) ** 2 / ((high - middle) * (high - low))
-        lower = (level - low) ** 2 / ((middle - low) * (high - low))
-    return np.asarray(np.where(level < middle, lower, np.where(level < high, upper, 1.0)))
+        beside = (level - tip) ** 2 / (np.abs(middle - tip) * (high - low))
+    return np.asarray(np.where(is_lower, beside, np.where(level < high, 1 - beside, 1.0)))
 
 
 def _bins(levels: Floats, label: Ints, edges: Floats, first: Ints) -> Ints:

@@ -7,8 +7,9 @@ from functools import cached_property
 from weakref import WeakKeyDictionary
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ..arrays import Bools, Floats, Ints, grouped
+from ..arrays import Bools, Floats, Ints, by_row
 from ..mesh import Mesh
 from ..mesh.operators import corner_means
 from ..mesh.quality import lengths as lengths_of
@@ -31,7 +32,7 @@ def limit_gradient(mesh: Mesh, size: Floats, slope: float) -> Floats:
     links, result = _links(mesh), np.array(size, dtype=np.float64)
     front = _lowered(result, *links.ends.T, slope * links.lengths)
     if len(front):
-        start, others, lengths = links.around
+        others, lengths, start = links.around
         steps = slope * lengths
     while len(front):  # the wave runs once as many links as the limit reaches: a few block edges
         is_lowered = np.zeros(mesh.n_points, dtype=bool)
@@ -48,13 +49,15 @@ def limit_gradient(mesh: Mesh, size: Floats, slope: float) -> Floats:
 
 
 def _lowered(values: Floats, first: Ints, second: Ints, steps: Floats) -> Ints:
-    """Lower values over links, once each way, and return the points that were lowered."""
+    """Lower values over links, once each way, and return the points that were lowered, in order."""
     rise = values[second] - values[first]
     steep = np.flatnonzero(np.abs(rise) > steps)
     is_up = rise[steep] > 0
     low, high = (np.where(is_up, *pair) for pair in ((first[steep], second[steep]), (second[steep], first[steep])))
     np.minimum.at(values, high, values[low] + steps[steep])
-    return np.unique(high)
+    is_lowered = np.zeros(len(values), dtype=bool)
+    is_lowered[high] = True
+    return np.flatnonzero(is_lowered)
 
 
 def gradient_limited_blocks(size: SizeField, side: float, slope: float, inside: Bools) -> float:
@@ -97,10 +100,12 @@ class _Links:
         )
 
     @cached_property
-    def around(self) -> tuple[Ints, Ints, Floats]:
-        """Where the links of each point begin, (n_points + 1,), the points linked, the lengths of the links."""
-        order, begin = grouped(self.ends, self.n_points)
-        return begin, self.ends.ravel()[order ^ 1], self.lengths[order >> 1]
+    def around(self) -> tuple[NDArray[np.integer], Floats, NDArray[np.integer]]:
+        """The points linked to each, the lengths of the links, and where those begin, (n_points + 1,)."""
+        first, second = self.ends.T
+        return by_row(
+            np.concatenate([first, second]), np.concatenate([second, first]), np.tile(self.lengths, 2), self.n_points
+        )
 
 
 _KNOWN: WeakKeyDictionary[Mesh, _Links] = WeakKeyDictionary()
