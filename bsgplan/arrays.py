@@ -11,6 +11,8 @@ from scipy.sparse import coo_array
 Floats: TypeAlias = NDArray[np.float64]
 Ints: TypeAlias = NDArray[np.int64]
 Bools: TypeAlias = NDArray[np.bool_]
+Wholes: TypeAlias = NDArray[np.integer[Any]]
+"""Whole numbers of any length: where a mesh allows, short ones."""
 Value = TypeVar("Value", bound=np.generic)
 
 RELATIVE_TOLERANCE = 1e-12
@@ -50,8 +52,8 @@ def grouped(index: Ints, n: int) -> tuple[Ints, Ints]:
 
 
 def by_row(
-    rows: Ints, columns: Ints, values: NDArray[Value], n: int
-) -> tuple[NDArray[np.integer], NDArray[Value], NDArray[np.integer]]:
+    rows: Wholes, columns: Wholes, values: NDArray[Value], n: int
+) -> tuple[Wholes, NDArray[Value], Wholes]:
     """Return the columns and values of entries by their rows 0 .. n - 1, and where each row begins, (n + 1,).
 
     Entries of one row keep their order; linear in time. Whole numbers are short where they can be.

@@ -1,7 +1,7 @@
 """Let the allocator keep what large arrays free, for the next large arrays.
 
-By default the C library maps every large array afresh and hands its pages back when it is freed; with dozens of
-arrays one after the other the kernel then zeroes the same pages again and again, a quarter of a plan's time.
+By default the C library maps every large array afresh and hands its pages back when it is freed; with dozens
+of arrays one after the other the kernel then zeroes the same pages again and again, a tenth of a plan's time.
 """
 
 from __future__ import annotations

@@ -18,7 +18,6 @@ import numpy as np
 import shapely
 from shapely.geometry.base import BaseGeometry
 
-from . import memory
 from .arrays import Bools, sums_by
 from .blocks.domain import domain_of
 from .blocks.target import target_of
@@ -27,6 +26,7 @@ from .io import MeshFile
 from .io.isotropy import warn_of_stretched
 from .io.part import part_of
 from .io.size_file import sizes_from
+from .memory import reused
 from .planning import Plan, check_block_size, estimate
 from .planning.inverse import within
 from .planning.totals import GRADIENT_LIMIT
@@ -39,7 +39,7 @@ from .result import PlannedMesh
 from .sizing import SizeField, named_size_field, size_field
 
 
-@memory.reused()
+@reused()
 def plan_blocks(
     mesh_file: MeshFile,
     *,

@@ -155,7 +155,7 @@ def domain_of(mesh: Mesh, *, interfaces: Bools | None = None, kept: Ints | None 
 
 
 def _split(mesh: Mesh) -> tuple[Mesh, Ints, Ints]:
-    """Return a mesh with its pinches split and its folds left out, and where its points and triangles are from.
+    """Return a mesh with pinches split and folds left out, and where its points and triangles are from.
 
     The mesh itself where it has neither.
     """

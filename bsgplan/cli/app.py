@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 from cyclopts import App, CycloptsError, UnknownCommandError
 
-from .. import memory
+from ..memory import reused
 from .errors import DONE, WRONG_USAGE, WarningLines, tell
 
 HELP = """Plan block-structured triangular grids: how many blocks, which patterns, what quality.
@@ -42,7 +42,7 @@ def main(argv: list[str] | None = None) -> int:
     words = list(sys.argv[1:] if argv is None else argv)
     is_debug = "--debug" in words
     words = [word for word in words if word != "--debug"]
-    with _warnings_on_stderr(), memory.reused():
+    with _warnings_on_stderr(), reused():
         try:
             app()(words, exit_on_error=False, print_error=False, result_action="return_none")
             sys.stdout.flush()

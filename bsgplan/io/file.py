@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .. import memory
 from ..arrays import Floats, Ints, frozen_floats, frozen_ints
 from ..errors import InvalidMesh, MeshReadError
+from ..memory import reused
 from ..mesh import Mesh, clean
 from ..mesh.check import is_planar
 from .boundary import Boundary, n_nodes
@@ -126,7 +126,7 @@ class MeshFile:
         }
 
 
-@memory.reused()
+@reused()
 def assemble(path: str, format: str, raw: RawMesh, projection: Projection | None = None) -> MeshFile:
     """Return the cleaned MeshFile of what a reader found; data and boundaries follow their points."""
     if not len(raw.triangles):

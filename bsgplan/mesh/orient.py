@@ -54,4 +54,3 @@ def turned_in_space(triangles: Ints, n_points: int) -> Bools:
     piece = np.minimum(sheet, other)
     majority = 2 * np.bincount(piece, is_turned) > np.bincount(piece)
     return np.asarray(is_turned ^ majority[piece])
-

@@ -8,17 +8,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from ..arrays import Bools, Ints, by_row
+from ..arrays import Bools, Ints, Wholes, by_row
 from ..errors import InvalidMesh
-
-Small: TypeAlias = NDArray[np.int32 | np.int64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,8 +30,8 @@ class Topology:
     cell_edges: Ints
     """Edge from corner i to corner i + 1 of each cell, (n_cells, n_corners)."""
     edge_sides: Ints
-    """The one or two sides of cells along each edge, (n_edges, 2): side i of cell c, from its corner i to i + 1,
-    is n_corners c + i; -1 where there is no second."""
+    """The one or two sides of cells along each edge, (n_edges, 2): side i of cell c, from its corner i to
+    i + 1, is n_corners c + i; -1 where there is no second."""
 
     @cached_property
     def edge_cells(self) -> Ints:
@@ -73,7 +69,7 @@ class Topology:
     def runs_alike(self) -> Bools:
         """Interior edges whose two cells run along them the same way, (n_interior_edges,).
 
-        In a mesh of the plane, all counter-clockwise, both lie on one side of such an edge: the mesh is folded.
+        In a mesh of the plane, all counter-clockwise, both lie on one side of it: the mesh is folded there.
         """
         start = self.cells.ravel()
         first, second = self.edge_sides.take(np.flatnonzero(~self.is_boundary_edge), axis=0).T
@@ -81,7 +77,7 @@ class Topology:
 
     @cached_property
     def tips(self) -> Ints:
-        """The vertices opposite each interior edge, in its first and its second triangle, (n_interior_edges, 2)."""
+        """The vertices opposite each interior edge, in both of its triangles, (n_interior_edges, 2)."""
         sides = self.edge_sides.take(np.flatnonzero(~self.is_boundary_edge), axis=0)
         return np.roll(self.cells, 1, axis=1).ravel()[sides]  # of the corner before the side
 
@@ -99,14 +95,14 @@ class Topology:
         return result
 
     @cached_property
-    def links(self) -> tuple[Small, Small, Small]:
-        """The vertices linked to each by an edge, these edges, and where those of each begin, (n_points + 1,)."""
+    def links(self) -> tuple[Wholes, Wholes, Wholes]:
+        """The vertices linked to each by an edge, these edges, and where those of each begin."""
         low, high = self.edges.T
-        edges = np.tile(np.arange(len(low), dtype=_small(self.edges.size)), 2)
+        edges: Wholes = np.tile(np.arange(len(low), dtype=_small(self.edges.size)), 2)
         return by_row(np.concatenate([high, low]), np.concatenate([low, high]), edges, self.n_points)
 
     @cached_property
-    def cells_around(self) -> tuple[Small, Small]:
+    def cells_around(self) -> tuple[Wholes, Wholes]:
         """The cells at each vertex, one after the other, and where those of each begin, (n_points + 1,)."""
         cells = np.repeat(np.arange(len(self.cells)), self.cells.shape[1])
         nothing = np.empty(len(cells), dtype=np.int8)
@@ -146,7 +142,7 @@ class Topology:
         return fan.reshape(-1, n_corners)
 
     def _n_cells_in_a_fan(self) -> Ints:
-        """Return the cells in one fan of each vertex, (n_points,); 0 where none, or sides that run alike, are.
+        """Return the cells in one fan of each vertex, (n_points,); 0 where there is none or sides run alike.
 
         Turns around all vertices at once, from the first corner of an open fan, from any of a closed one.
         """
@@ -243,7 +239,7 @@ def topology(cells: Ints, n_points: int) -> Topology:
     return Topology(cells, n_points, edges, cell_edges.reshape(cells.shape), edge_sides)
 
 
-def _by_ends(cells: Ints, n_points: int) -> tuple[Small, Small, Small]:
+def _by_ends(cells: Ints, n_points: int) -> tuple[Wholes, Wholes, Wholes]:
     """Return the sides of all cells by their smaller end, then their larger, then the cell, and these ends.
 
     (n_cells * n_corners,) each; short integers where the mesh allows.
@@ -257,7 +253,7 @@ def _by_ends(cells: Ints, n_points: int) -> tuple[Small, Small, Small]:
     return order, low[order], high[order]
 
 
-def _sorted_places(values: Small, n: int) -> Small:
+def _sorted_places(values: Wholes, n: int) -> Wholes:
     """Return the stable order of integers 0 .. n - 1; linear in time."""
     place = np.arange(len(values), dtype=values.dtype)
     return by_row(values, place, np.empty(len(values), dtype=np.int8), n)[0]

@@ -3,8 +3,8 @@
 Threshold dynamics [Merriman, Bence & Osher]: the indicator of each label is averaged over the triangles
 around the vertices, four times, and each triangle takes the label that is strongest there; ties go to the
 smaller label. All work is done within a few rings of the borders, and again only where something changed.
-Where two labels meet, the averages of a number for each label and of its square tell which the other is and
-its share; only around junctions of three are there indicators of all.
+Where two labels meet, the averages of a number for each label and of its square tell which the other is
+and its share; only around junctions of three are there indicators of all.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
-from ..arrays import Bools, Floats, Ints, sums_by
+from ..arrays import Bools, Floats, Ints, Wholes, sums_by
 from ..mesh import Mesh
 from ..mesh.quality import angles
 
@@ -23,11 +23,11 @@ AVERAGES = 4
 """Averages, and so rings, over which a label is felt."""
 
 REACH = 3
-"""Rings around a border in which triangles may change sides: beyond, less than half of all walks of `AVERAGES`
-steps come to the other side, as each step would have to lead straight towards it."""
+"""Rings around a border in which triangles may change sides: beyond, less than half of all `AVERAGES` long
+walks come to the other side, as each step would have to lead straight towards it."""
 
 GOLDEN = (np.sqrt(5) - 1) / 2
-"""Label k has the number k + (k GOLDEN mod 1) / 2: no mean of some looks like another one, all are .5 apart."""
+"""Label k has the number k + (k GOLDEN mod 1) / 2: no mean of some is one more, and all are .5 apart."""
 
 FELT = 0.1
 """A spread below this, of at most .4 of others .5 apart, leaves a triangle its own label."""
@@ -86,12 +86,12 @@ def corner_shares(mesh: Mesh) -> Floats:
 
 
 def _rings(mesh: Mesh, triangles: Ints, most: int) -> NDArray[np.int8]:
-    """Return how many rings of vertices lie between each triangle and some, (n_triangles,), most + 1 beyond."""
+    """Return the ring of vertices around some in which a triangle lies, (n_triangles,); most + 1 beyond."""
     around, start = mesh.topology.cells_around
     ring = np.full(mesh.n_triangles, most + 1, dtype=np.int8)
     is_reached = np.zeros(mesh.n_points, dtype=bool)
     ring[triangles] = 0
-    front = np.flatnonzero(ring == 0)
+    front: Wholes = np.flatnonzero(ring == 0)
     for k in range(1, most + 1):
         is_fresh = np.zeros_like(is_reached)
         is_fresh[mesh.triangles.take(front, axis=0)] = True
@@ -171,7 +171,7 @@ def _strongest(mesh: Mesh, label: Ints, patch: _Patch, shares: Floats) -> Ints:
 
 
 def _strongest_of_many(label: Ints, patch: _Patch) -> Ints:
-    """Return the label that is strongest at the near triangles of a patch, by the indicators of all labels."""
+    """Return the label that is strongest at the near triangles of a patch, by indicators of all labels."""
     names, local = np.unique(label[patch.triangles], return_inverse=True)
     n = len(patch.triangles)
     share = csr_array((np.ones(n), local, np.arange(n + 1)), shape=(n, len(names)))

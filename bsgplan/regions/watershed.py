@@ -34,7 +34,8 @@ def basins(edges: Ints, lengths: Floats, values: Floats, persistence: float) -> 
 def _descend(edges: Ints, lengths: Floats, values: Floats) -> Ints:
     """Return the minimum below each node; of equal neighbours the first is the lower one."""
     n_nodes = len(values)
-    first, second = np.minimum(*edges.T), np.maximum(*edges.T)
+    a, b = edges.T
+    first, second = np.minimum(a, b), np.maximum(a, b)
     rise = values[first] - values[second]
     is_down = rise > 0
     upper, lower = np.where(is_down, first, second), np.where(is_down, second, first)

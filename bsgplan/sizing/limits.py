@@ -7,9 +7,8 @@ from functools import cached_property
 from weakref import WeakKeyDictionary
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..arrays import Bools, Floats, Ints, by_row
+from ..arrays import Bools, Floats, Ints, Wholes, by_row
 from ..mesh import Mesh
 from ..mesh.operators import corner_means
 from ..mesh.quality import lengths as lengths_of
@@ -30,7 +29,7 @@ def limit_gradient(mesh: Mesh, size: Floats, slope: float) -> Floats:
     array([1. , 1.5, 1.2])
     """
     links, result = _links(mesh), np.array(size, dtype=np.float64)
-    front = _lowered(result, *links.ends.T, slope * links.lengths)
+    front = _lowered(result, links.ends, slope * links.lengths)
     if len(front):
         others, lengths, start = links.around
         steps = slope * lengths
@@ -48,12 +47,13 @@ def limit_gradient(mesh: Mesh, size: Floats, slope: float) -> Floats:
     return result
 
 
-def _lowered(values: Floats, first: Ints, second: Ints, steps: Floats) -> Ints:
+def _lowered(values: Floats, ends: Ints, steps: Floats) -> Ints:
     """Lower values over links, once each way, and return the points that were lowered, in order."""
-    rise = values[second] - values[first]
+    rise = values[ends[:, 1]] - values[ends[:, 0]]
     steep = np.flatnonzero(np.abs(rise) > steps)
+    first, second = ends.take(steep, axis=0).T
     is_up = rise[steep] > 0
-    low, high = (np.where(is_up, *pair) for pair in ((first[steep], second[steep]), (second[steep], first[steep])))
+    low, high = np.where(is_up, first, second), np.where(is_up, second, first)
     np.minimum.at(values, high, values[low] + steps[steep])
     is_lowered = np.zeros(len(values), dtype=bool)
     is_lowered[high] = True
@@ -100,11 +100,14 @@ class _Links:
         )
 
     @cached_property
-    def around(self) -> tuple[NDArray[np.integer], Floats, NDArray[np.integer]]:
+    def around(self) -> tuple[Wholes, Floats, Wholes]:
         """The points linked to each, the lengths of the links, and where those begin, (n_points + 1,)."""
         first, second = self.ends.T
         return by_row(
-            np.concatenate([first, second]), np.concatenate([second, first]), np.tile(self.lengths, 2), self.n_points
+            np.concatenate([first, second]),
+            np.concatenate([second, first]),
+            np.tile(self.lengths, 2),
+            self.n_points,
         )
 
 
@@ -143,8 +146,10 @@ def _across(points: Floats, tips: Ints, edges: Ints) -> Floats:
     where = near * d_far + far * d_near  # of the edge, times the sum of the two
     bent = np.flatnonzero((where <= 0) | (where >= d_near + d_far))
     result = np.sqrt(direct)
+    first, last = points[start[bent]], points[end[bent]]
     over = [
-        sum(lengths_of(points[tip[bent]] - points[corner[bent]]) for tip in (start, end)) for corner in (a, b)
+        lengths_of(first - corner) + lengths_of(last - corner)
+        for corner in (points[a[bent]], points[b[bent]])
     ]
     result[bent] = np.minimum(*over)
     return np.asarray(result)
