@@ -17,7 +17,7 @@ from scipy.sparse import csr_array
 
 from ..arrays import Bools, Floats, Ints, Wholes, sums_by
 from ..mesh import Mesh
-from ..mesh.quality import angles
+from ..mesh.operators import cotangents
 
 AVERAGES = 4
 """Averages, and so rings, over which a label is felt."""
@@ -78,7 +78,7 @@ def corner_shares(mesh: Mesh) -> Floats:
 
     By its angles: by number, a border would creep from the fine side, with its many triangles, to the coarse.
     """
-    angle = angles(mesh.corner_edge_lengths)
+    angle = np.pi / 2 - np.arctan(cotangents(mesh))
     around = sums_by(mesh.triangles, angle, mesh.n_points)
     return np.column_stack(
         [a / (3 * around[corner]) for a, corner in zip(angle.T, mesh.triangles.T, strict=True)]

@@ -17,7 +17,7 @@ from ..arrays import Floats, Ints, sums_by
 from ..mesh import Mesh
 from ..mesh.operators import to_vertices
 from ..mesh.quality import angles, lengths
-from .diffusion import filtered, gently
+from .diffusion import gently
 
 if TYPE_CHECKING:
     from .field import SizeField
@@ -93,4 +93,4 @@ def wide_slope(size: SizeField, reach: float = REACH) -> Floats:
     """
     mesh, h = size.mesh, size.triangle_h
     growth = to_vertices(mesh, size.triangle_slope * h[:, None])
-    return filtered(mesh, growth, reach * h, gently) / size.h[:, None]
+    return size.diffusion.filtered(growth, gently, reach) / size.h[:, None]

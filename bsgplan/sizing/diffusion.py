@@ -8,6 +8,7 @@ edge-weighted matrix, replaces solving: all components at once, nothing assemble
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -32,38 +33,55 @@ LARGEST_DEGREE = 200
 """Products at most; the error then grows with the length, the mean is still kept."""
 
 
-def diffuse(mesh: Mesh, values: Floats, length: Floats) -> Floats:
-    """Return vertex values diffused over a local length, (n_points, ...): (M + K_{length^2}) v = M values.
+def once(x: Floats) -> Floats:
+    """Return the response 1 / (1 + x) to waves: (M + K_{length^2}) v = M values.
 
-    length is one value a triangle, (n_triangles,). Keeps the mean; flattens at the wall.
+    Keeps the mean; flattens at the wall.
     """
-    return filtered(mesh, values, length, lambda x: 1 / (1 + x))
+    return 1 / (1 + x)
 
 
 def gently(x: Floats) -> Floats:
-    """Return the response 2 S - S^2 to waves, S = 1 / (1 + x) that of `diffuse`.
+    """Return the response 2 S - S^2 to waves, S that of `once`.
 
     What diffusion loses is diffused once more and added: long waves pass, and one-sided means at the wall
     cost less.
     """
-    return 2 / (1 + x) - 1 / (1 + x) ** 2
+    return 2 * once(x) - once(x) ** 2
 
 
-def filtered(mesh: Mesh, values: Floats, length: Floats, response: Callable[[Floats], Floats]) -> Floats:
-    """Return the vertex values with each wave weighed by the response to its x, (n_points, ...).
+@dataclass(frozen=True, eq=False)
+class Diffusion:
+    """M^-1 K over a local length, moved and scaled to a spectrum in -1 .. 1."""
 
-    response(0) = 1: constants and the integral are kept to rounding.
-    """
-    mass = vertex_areas(mesh)
-    conductivity, bound = _bounded(mesh, length**2 * np.minimum(mesh.qualities / SLIVER, 1.0), mass)
-    weights = edge_weights(mesh, conductivity) / (bound / 2)
-    diagonal = sum(sums_by(end, weights, mesh.n_points) for end in mesh.topology.edges.T) / mass - 1.0
-    matrix = between_ends(mesh, -weights)
-    matrix.data /= np.repeat(mass, np.diff(matrix.indptr))
-    series = _series(response, bound)
-    columns = values.reshape(mesh.n_points, -1).T
-    results = [_chebyshev_sum(matrix, diagonal, series, np.ascontiguousarray(column)) for column in columns]
-    return np.column_stack(results).reshape(values.shape)
+    matrix: csr_array
+    """Off the diagonal, (n_points, n_points)."""
+    diagonal: Floats
+    """On the diagonal, (n_points,)."""
+    bound: float
+    """Largest eigenvalue x of M^-1 K."""
+
+    @classmethod
+    def over(cls, mesh: Mesh, length: Floats) -> Diffusion:
+        """Return the diffusion over a length a triangle, (n_triangles,)."""
+        mass = vertex_areas(mesh)
+        conductivity, bound = _bounded(mesh, length**2 * np.minimum(mesh.qualities / SLIVER, 1.0), mass)
+        weights = edge_weights(mesh, conductivity) / (bound / 2)
+        around = sum(sums_by(end, weights, mesh.n_points) for end in mesh.topology.edges.T)
+        matrix = between_ends(mesh, -weights)
+        matrix.data /= np.repeat(mass, np.diff(matrix.indptr))
+        return cls(matrix, around / mass - 1.0, bound)
+
+    def filtered(self, values: Floats, response: Callable[[Floats], Floats], reach: float = 1.0) -> Floats:
+        """Return the vertex values with each wave weighed by the response to its x, (n_points, ...).
+
+        reach multiplies the length, and so its square x. response(0) = 1: constants and the integral are kept
+        to rounding.
+        """
+        series = _series(lambda x: response(reach**2 * x), self.bound)
+        columns = np.ascontiguousarray(values.reshape(len(values), -1).T)
+        results = [_chebyshev_sum(self.matrix, self.diagonal, series, column) for column in columns]
+        return np.column_stack(results).reshape(values.shape)
 
 
 def _series(response: Callable[[Floats], Floats], bound: float) -> Floats:

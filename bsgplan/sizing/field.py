@@ -16,7 +16,7 @@ from ..errors import InvalidSize
 from ..mesh import Mesh
 from ..mesh.operators import corner_means, gradient, to_vertices
 from .charge import edge_fluxes
-from .diffusion import diffuse
+from .diffusion import Diffusion, once
 
 EQUILATERAL = np.sqrt(3) / 4
 """Area of an equilateral triangle of edge 1."""
@@ -82,7 +82,12 @@ class SizeField:
     def slope(self) -> Floats:
         """grad(log h) at the vertices, averaged over one local size, (n_points, 2 or 3), 1/length."""
         slope = to_vertices(self.mesh, self.triangle_slope)
-        return frozen_floats(diffuse(self.mesh, slope, self.triangle_h))
+        return frozen_floats(self.diffusion.filtered(slope, once))
+
+    @cached_property
+    def diffusion(self) -> Diffusion:
+        """Diffusion over one local size."""
+        return Diffusion.over(self.mesh, self.triangle_h)
 
     @cached_property
     def fluxes(self) -> Floats:

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from strategies import disc, jittered, meshes
 
 from bsgplan.mesh import Mesh
-from bsgplan.sizing.diffusion import diffuse
+from bsgplan.sizing.diffusion import Diffusion, once
 from bsgplan.sizing.smoothing import fit_edges, gradient_jumps, smooth
 
 SLOPE = np.array([0.11, -0.07])
@@ -58,10 +58,10 @@ def test_smoothing_quiets_noise_and_keeps_its_mean() -> None:
 
 def test_diffusion_keeps_constants_and_the_integral() -> None:
     mesh = disc(8)
-    length = np.full(mesh.n_triangles, 0.2)
-    assert diffuse(mesh, np.full(mesh.n_points, 2.5), length) == pytest.approx(2.5)
+    diffusion = Diffusion.over(mesh, np.full(mesh.n_triangles, 0.2))
+    assert diffusion.filtered(np.full(mesh.n_points, 2.5), once) == pytest.approx(2.5)
     values = np.where(np.hypot(*mesh.points.T) < 0.3, 1.0, 0.0)
     area = np.zeros(mesh.n_points)
     np.add.at(area, mesh.triangles, mesh.areas[:, None] / 3)
-    assert area @ diffuse(mesh, values, length) == pytest.approx(area @ values, rel=1e-3)
-    assert diffuse(mesh, np.column_stack([values, values]), length).shape == (mesh.n_points, 2)
+    assert area @ diffusion.filtered(values, once) == pytest.approx(area @ values, rel=1e-3)
+    assert diffusion.filtered(np.column_stack([values, values]), once).shape == (mesh.n_points, 2)
