@@ -95,6 +95,21 @@ def test_two_triangles_at_a_vertex_are_a_pinch():
     assert_identity_holds(mesh)
 
 
+def test_closed_fans_at_one_vertex_are_a_pinch() -> None:
+    """Two tetrahedra tip to tip, and one on the rim of a triangle: fans without an end do not hide."""
+    tips = np.vstack([TETRAHEDRON, np.where(TETRAHEDRON == 0, 0, TETRAHEDRON + 3)])
+    topo = topology(tips, 7)
+    assert (topo.n_pinches, topo.n_components, topo.n_boundary_loops) == (1, 2, 0)
+    assert sorted(np.unique(topo.corner_fan)) == list(range(8))
+    on_rim = topology(np.vstack([TETRAHEDRON, [[0, 4, 5]]]), 6)
+    assert (on_rim.n_pinches, on_rim.n_boundary_loops) == (1, 1)
+
+
+def test_fans_are_the_vertices_where_there_is_no_pinch() -> None:
+    mesh = annulus(7)
+    assert np.array_equal(mesh.topology.corner_fan, mesh.triangles)
+
+
 def test_moebius_band_has_one_loop_and_the_identity_holds():
     """Not orientable, yet an honest surface: five triangles, one boundary."""
     cells = np.array([[0, 1, 2], [1, 2, 3], [2, 3, 4], [3, 4, 0], [4, 0, 1]])
@@ -128,6 +143,18 @@ def test_fast_topology_agrees_with_its_slow_twin(mesh):
         [c for c in pair if c >= 0] for pair in np.sort(topo.edge_cells, axis=1).tolist()
     ]
     assert topo.n_pinches == reference.n_pinches(cells)
+    corner = topo.cells.ravel()
+    after = np.roll(topo.cells, -1, axis=1).ravel()
+    for edge, sides in zip(topo.edges.tolist(), topo.edge_sides.tolist(), strict=True):
+        assert all(sorted((corner[s], after[s])) == edge for s in sides if s >= 0)
+    inner = topo.edges[~topo.is_boundary_edge]
+    for edge, pair, tips in zip(inner, topo.neighbours, topo.tips, strict=True):
+        assert [set(cells[c]) - set(edge.tolist()) for c in pair] == [{t} for t in tips]
+    others, of_edge, start = topo.links
+    for v in range(topo.n_points):
+        own = slice(start[v], start[v + 1])
+        assert {tuple(sorted((v, w))) for w in others[own].tolist()} == {e for e in slow if v in e}
+        assert all(v in topo.edges[e] for e in of_edge[own])
     assert topo.n_boundary_loops == reference.n_boundary_loops(cells)
     links = [(c[0], c[1]) for c in slow.values() if len(c) == 2]
     assert topo.n_components == len(reference.components(set(range(len(cells))), links))
