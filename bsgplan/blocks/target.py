@@ -9,9 +9,8 @@ from functools import cache
 import numpy as np
 
 from ..arrays import Bools, Floats, frozen_floats, sums_by
-from ..mesh.operators import corner_means
 from ..sizing import SizeField
-from ..sizing.field import EQUILATERAL
+from ..sizing.field import covering
 from ..sizing.limits import limit_gradient
 from .corners import find_corners
 from .domain import Domain
@@ -123,18 +122,13 @@ def limited(domain: Domain, length: Floats, slope: float) -> Floats:
 
 def n_blocks(domain: Domain, length: Floats) -> float:
     """Return the number of equilateral blocks of that edge length, in the domain's unit, that cover it."""
-    return float(_blocks(domain, length).sum())
-
-
-def _blocks(domain: Domain, length: Floats) -> Floats:
-    mean = np.exp(corner_means(domain.mesh.triangles, np.log(length)))
-    return np.asarray(domain.areas / (EQUILATERAL * mean**2))
+    return float(covering(domain.mesh, length * domain.scale).sum())
 
 
 def _is_small(domain: Domain, wanted: Floats) -> Bools:
     """Return the points of components that want fewer than SMALL blocks, (n_points,)."""
     component = domain.mesh.topology.component
-    total = sums_by(component, _blocks(domain, wanted), int(component.max()) + 1)
+    total = sums_by(component, covering(domain.mesh, wanted * domain.scale), int(component.max()) + 1)
     result = np.zeros(domain.n_points, dtype=bool)
     result[domain.mesh.triangles] = (total < SMALL)[component][:, None]
     return result

@@ -22,6 +22,16 @@ EQUILATERAL = np.sqrt(3) / 4
 """Area of an equilateral triangle of edge 1."""
 
 
+def covering(mesh: Mesh, h: Floats) -> Floats:
+    """Return how many equilateral triangles of size h cover each triangle, (n_triangles,).
+
+    A / (sqrt(3)/4 h^2). h is one length a point; that of a triangle is the geometric mean of its corners.
+    """
+    share = h ** (-2 / 3)
+    a, b, c = (share[corner] for corner in mesh.triangles.T)
+    return mesh.areas / EQUILATERAL * (a * b * c)
+
+
 @dataclass(frozen=True, eq=False)
 class SizeField:
     """Edge length h at each vertex of a mesh; raises InvalidSize unless positive and finite."""
@@ -75,8 +85,8 @@ class SizeField:
 
     @cached_property
     def triangle_weights(self) -> Floats:
-        """Equilateral triangles of size h that cover each triangle, (n_triangles,): A / (sqrt(3)/4 h^2)."""
-        return self.mesh.areas / (EQUILATERAL * self.triangle_h**2)
+        """Equilateral triangles of size h that cover each triangle, (n_triangles,)."""
+        return covering(self.mesh, self.h)
 
     @cached_property
     def slope(self) -> Floats:

@@ -10,9 +10,8 @@ import numpy as np
 
 from ..arrays import Bools, Floats, Ints, Wholes, by_row
 from ..mesh import Mesh
-from ..mesh.operators import corner_means
 from ..mesh.quality import lengths as lengths_of
-from .field import EQUILATERAL, SizeField
+from .field import SizeField, covering
 
 AT_ONCE = 1 << 15
 """Points of a wave that are handed on at a time: their links stay in a processor's cache."""
@@ -65,17 +64,13 @@ def gradient_limited_blocks(size: SizeField, side: float, slope: float, inside: 
 
     side is s; H is s h where |grad H| <= slope allows it. Counted over the triangles inside, (n_triangles,).
     """
-    limited = limit_gradient(size.mesh, side * size.h, slope)
-    return _count(size, np.exp(corner_means(size.mesh.triangles, np.log(limited))), inside)
+    return float(covering(size.mesh, limit_gradient(size.mesh, side * size.h, slope))[inside].sum())
 
 
 def capped_triangles(size: SizeField, cap: Floats, inside: Bools) -> float:
     """Return the triangles of a mesh of size min(h, cap) inside; cap and inside are one value a triangle."""
-    return _count(size, np.minimum(size.triangle_h, cap), inside)
-
-
-def _count(size: SizeField, triangle_size: Floats, inside: Bools) -> float:
-    return float((size.mesh.areas / (EQUILATERAL * triangle_size**2))[inside].sum())
+    finer = np.maximum(size.triangle_h / cap, 1.0) ** 2
+    return float((size.triangle_weights * finer)[inside].sum())
 
 
 @dataclass(frozen=True, eq=False)
