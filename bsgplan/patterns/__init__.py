@@ -5,9 +5,9 @@ from .length import BestLength, best_length, length_of_layers
 from .moving import move_vertices
 from .pattern import Pattern
 from .realise import Realised, realise, relative_irregularity, vertex_irregularity_of_fronts
-from .search import Found, is_exact, search
+from .search import Found, is_exact, search, shortlist
 from .shape import Shape
-from .spacing import Spacing, best_spacing, paper_spacing
+from .spacing import Spacing, best_spacing, best_spacings, paper_spacing
 from .strip import strip_triangles
 from .subdivision import subdivide
 from .width import best_width, strip_quality, width_interval
@@ -22,6 +22,7 @@ __all__ = [
     "Spacing",
     "best_length",
     "best_spacing",
+    "best_spacings",
     "best_width",
     "bounds",
     "fan_angle",
@@ -34,6 +35,7 @@ __all__ = [
     "realise",
     "relative_irregularity",
     "search",
+    "shortlist",
     "strip_quality",
     "strip_triangles",
     "subdivide",

@@ -15,6 +15,9 @@ from operator import index
 from ..errors import InvalidOption
 from ..mesh.irregularity import Irregularity
 
+Counts = tuple[int, ...]
+"""Elements of each front, from the first to the last."""
+
 FEWEST_FRONTS = 2
 FEWEST_OPEN = 1
 FEWEST_CLOSED = 3

@@ -1,7 +1,7 @@
 """Front positions where fronts differ in length: rounds of dynamic programming over a few offsets a front.
 
-Each round tries nine positions for each front, within windows that keep the order of fronts, and finds the
-choice that is best of all combinations: first the largest smallest quality, then, among those, the
+Each round tries nine positions for each inner front, within windows that keep the order of fronts, and finds
+the choice that is best of all combinations: first the largest smallest quality, then, among those, the
 largest sum over strips. Windows shrink from round to round. Deterministic; never worse than the start.
 """
 
@@ -9,10 +9,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..arrays import Bools, Floats
-from .frustum import critical_triangles, mean_ratios
-from .pattern import Pattern
-from .shape import Shape
+from ..arrays import Floats, Ints
+from .alike import Alike
+from .frustum import gap_measures, gap_ratios
 
 OFFSETS = np.linspace(-1, 1, 9)
 """Trial positions of a front, in windows; an odd number, so that one of them is to stay."""
@@ -25,48 +24,92 @@ GAIN = 0.005
 ROUNDS = 24
 """Rounds at most, where gains are small but steady."""
 
+MOST_AT_ONCE = 4096
+"""Trials measured at once: their arrays fit the cache of a processor core."""
 
-def place(pattern: Pattern, shape: Shape, positions: Floats) -> Floats:
-    """Return front positions with a larger smallest mean ratio, or the given ones, (n_fronts,), length."""
-    window, reached = WIDEST, -np.inf
+
+def place(patterns: Alike, positions: Floats) -> Floats:
+    """Return front positions with a larger smallest mean ratio, or the given ones, (n, n_fronts), length."""
+    if patterns.n_layers == 1:
+        return positions
+    positions = positions.copy()
+    window, reached = np.full(len(patterns), WIDEST), np.full(len(patterns), -np.inf)
+    rows = np.arange(len(patterns))
     for _ in range(ROUNDS):
-        widths = np.diff(positions)
-        reach = np.zeros(len(positions))
-        reach[1:-1] = window * np.minimum(widths[:-1], widths[1:])
-        trials = positions[:, None] + reach[:, None] * OFFSETS
-        q, chosen = _best_path(_trial_qualities(pattern, shape, trials))
-        positions = trials[np.arange(len(trials)), chosen]
-        window, reached = (window if q - reached > GAIN * abs(q) else window / 2), q
-        if window < NARROWEST:
+        widths = np.diff(positions[rows])
+        reach = np.zeros(positions[rows].shape)
+        reach[:, 1:-1] = window[rows, None] * np.minimum(widths[:, :-1], widths[:, 1:])
+        trials = positions[rows][:, :, None] + reach[:, :, None] * OFFSETS
+        q, chosen = _best_path(*_trial_qualities(patterns, rows, trials))
+        positions[rows] = np.take_along_axis(trials, chosen[:, :, None], axis=2)[:, :, 0]
+        is_gain = q - reached[rows] > GAIN * np.abs(q)
+        window[rows] = np.where(is_gain, window[rows], window[rows] / 2)
+        reached[rows] = q
+        rows = rows[window[rows] >= NARROWEST]
+        if not len(rows):
             break
-    positions[0], positions[-1] = 0.0, shape.length
+    positions[:, 0], positions[:, -1] = 0.0, patterns.lengths
     return positions
 
 
-def _trial_qualities(pattern: Pattern, shape: Shape, trials: Floats) -> Floats:
-    """Smallest mean ratio of each strip for each pair of trials, (n_layers, n_trials, n_trials)."""
-    table, strip = critical_triangles(pattern)
-    lengths = shape.front_lengths(trials)
-    first, second = lengths[:-1, :, None][strip], lengths[1:, None, :][strip]
-    width = (trials[1:, None, :] - trials[:-1, :, None])[strip]
-    qualities = mean_ratios(table[:, :, None, None], first, second, width, is_closed=pattern.is_closed)
-    starts = np.flatnonzero(np.diff(strip, prepend=-1))
-    return np.minimum.reduceat(qualities, starts, axis=0)
+def _trial_qualities(patterns: Alike, rows: Ints, trials: Floats) -> tuple[Floats, Floats]:
+    """Return the smallest mean ratio of each strip for each pair of trials.
+
+    The first and the last strip have one front that stays, (n, 2, n_trials); those between have pairs,
+    (n, n_layers - 2, n_trials, n_trials).
+    """
+    lengths = patterns.front_lengths(trials, rows)
+    number = np.full(len(patterns), -1)
+    number[rows] = np.arange(len(rows))
+    row, layer, side = patterns.critical
+
+    def smallest(strips: Ints, first: Floats, second: Floats, width: Floats) -> Floats:
+        place_of = np.full(patterns.n_layers, -1)
+        place_of[strips] = np.arange(len(strips))
+        meant = np.flatnonzero((number[row] >= 0) & (place_of[layer] >= 0))
+        where = number[row[meant]] * len(strips) + place_of[layer[meant]]
+        measures = gap_measures(first, second, width, is_closed=patterns.is_closed)
+        measures = measures.reshape(3, 2, len(rows) * len(strips), -1)
+        shares, turns = patterns.shares[meant, None], patterns.turns[meant, None]
+        at_once = max(1, MOST_AT_ONCE // measures.shape[3])
+        ratios = np.concatenate(
+            [
+                gap_ratios(
+                    shares[part],
+                    turns[part],
+                    *measures[:, side[meant[part]], where[part]],
+                    is_closed=patterns.is_closed,
+                )
+                for part in (slice(k, k + at_once) for k in range(0, len(meant), at_once))
+            ]
+        )
+        start = np.flatnonzero(np.diff(where, prepend=-1))
+        return np.asarray(np.minimum.reduceat(ratios, start)).reshape(width.shape)
+
+    ends, inner = np.array([0, patterns.n_layers - 1]), np.arange(1, patterns.n_layers - 1)
+    at_ends = smallest(ends, lengths[:, ends], lengths[:, ends + 1], trials[:, ends + 1] - trials[:, ends])
+    if not len(inner):
+        return at_ends, np.empty((len(rows), 0, trials.shape[2], trials.shape[2]))
+    first, second = lengths[:, inner, :, None], lengths[:, inner + 1, None, :]
+    return at_ends, smallest(inner, first, second, trials[:, inner + 1, None, :] - trials[:, inner, :, None])
 
 
-def _best_path(qualities: Floats) -> tuple[float, list[int]]:
-    """Largest minimum, and the trial of each front, (n_fronts,), on the path of largest sum that has it."""
-    bottleneck = np.full(qualities.shape[1], np.inf)
-    for strip in qualities:
-        bottleneck = np.minimum(bottleneck[:, None], strip).max(axis=0)
-    allowed: Bools = qualities >= bottleneck.max()
-    gains = np.where(allowed, qualities, -np.inf)
-    total, came_from = np.zeros(qualities.shape[1]), []
-    for gain in gains:
-        sums = total[:, None] + gain
-        came_from.append(sums.argmax(axis=0))
-        total = sums.max(axis=0)
-    path = [int(total.argmax())]
+def _best_path(ends: Floats, inner: Floats) -> tuple[Floats, Ints]:
+    """Return the largest minimum, (n,), and the trials, (n, n_fronts), of the path of largest sum with it."""
+    bottleneck = ends[:, 0]
+    for k in range(inner.shape[1]):
+        bottleneck = np.minimum(bottleneck[:, :, None], inner[:, k]).max(axis=1)
+    best = np.minimum(bottleneck, ends[:, 1]).max(axis=1)
+    ends = np.where(ends >= best[:, None, None], ends, -np.inf)
+    inner = np.where(inner >= best[:, None, None, None], inner, -np.inf)
+    total, came_from = ends[:, 0], []
+    for k in range(inner.shape[1]):
+        sums = total[:, :, None] + inner[:, k]
+        came_from.append(sums.argmax(axis=1))
+        total = sums.max(axis=1)
+    here = (total + ends[:, 1]).argmax(axis=1)
+    path, every = [np.zeros_like(here), here], np.arange(len(here))
     for before in reversed(came_from):
-        path.append(int(before[path[-1]]))
-    return float(bottleneck.max()), path[::-1]
+        here = before[every, here]
+        path.append(here)
+    return best, np.stack([*path, np.zeros_like(here)][::-1], axis=1)

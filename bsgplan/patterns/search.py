@@ -22,7 +22,8 @@ from .pattern import FEWEST_CLOSED, FEWEST_OPEN, Pattern
 from .search_exact import exact_front
 from .search_pool import improved, regular_sequences
 from .search_priced import priced_sequences
-from .search_strips import Known, front, known, qualities_over, strips_between
+from .search_strips import Known, front, known, strips_between
+from .straight import qualities_over
 
 EXACT = 16
 """Largest fine front searched exactly."""
@@ -76,11 +77,12 @@ def search(
     ['4:2:1', '4:3:2:1', '4:1:1', '4:1']
     """
     _check(fine, coarse, length, least_quality, is_closed=is_closed)
-    low, high = sorted((fine, coarse))
-    if low == high:
-        pool = _equal_fronts(low, length, is_closed=is_closed)
-    else:
-        pool = _pool(high, low, length, least_quality, is_closed=is_closed)
+    high, low = max(fine, coarse), min(fine, coarse)
+    pool = _pool(high, low, length, least_quality, is_closed=is_closed)
+    if high > low and is_exact(fine, coarse):
+        strips = strips_between(high, low, is_closed=is_closed)
+        good = (k for k in pool if k.quality >= least_quality)
+        pool = exact_front(strips, length, good, least_quality=least_quality) or pool
     best = front((k for k in pool if k.quality >= least_quality), resolution=RESOLUTION)
     if not best:
         top = max(pool, key=lambda k: k.quality)
@@ -92,19 +94,35 @@ def search(
     return tuple(_found(k, length, is_reversed=fine < coarse, is_closed=is_closed) for k in best)
 
 
+def shortlist(
+    fine: int, coarse: int, *, length: float, least_quality: float = LEAST_QUALITY, is_closed: bool = False
+) -> tuple[Found, ...]:
+    """Return what `search` finds before it proves that nothing is missing: most of the front, soon; or none.
+
+    Raises InvalidOption as `search` does.
+
+    >>> [str(f.pattern) for f in shortlist(4, 1, length=0.75, least_quality=0.55)]
+    ['4:2:1', '4:3:2:1']
+    """
+    _check(fine, coarse, length, least_quality, is_closed=is_closed)
+    pool = _pool(max(fine, coarse), min(fine, coarse), length, least_quality, is_closed=is_closed)
+    best = front((k for k in pool if k.quality >= least_quality), resolution=RESOLUTION)
+    return tuple(_found(k, length, is_reversed=fine < coarse, is_closed=is_closed) for k in best)
+
+
 def _pool(
     fine: int, coarse: int, length: float | None, least_quality: float, *, is_closed: bool
 ) -> list[Known]:
+    """Return the front of what prices and rules suggest, or all of it where nothing is good enough."""
+    if fine == coarse:
+        return _equal_fronts(fine, length, is_closed=is_closed)
     strips = strips_between(fine, coarse, is_closed=is_closed)
     priced = priced_sequences(strips, length, least_quality=least_quality)
     sequences = list(dict.fromkeys([*regular_sequences(fine, coarse, length), *priced]))
     qualities = qualities_over(sequences, length, is_closed=is_closed)
-    pool = [known(c, float(q)) for c, q in zip(sequences, qualities, strict=True)]
+    pool = known(sequences, qualities)
     good = [k for k in pool if k.quality >= least_quality]
-    good = improved(good, length, least_quality=least_quality, is_closed=is_closed)
-    if is_exact(fine, coarse):
-        good = exact_front(strips, length, good, least_quality=least_quality)
-    return good or pool
+    return improved(good, length, least_quality=least_quality, is_closed=is_closed) if good else pool
 
 
 def is_exact(fine: int, coarse: int) -> bool:
@@ -122,7 +140,7 @@ def _equal_fronts(count: int, length: float | None, *, is_closed: bool) -> list[
     most = 1 if length is None else max(1, round(length / strip.length) + 1)
     sequences = [(count,) * (n + 1) for n in range(1, most + 1)]
     qualities = qualities_over(sequences, length, is_closed=is_closed)
-    return [known(c, float(q)) for c, q in zip(sequences, qualities, strict=True)]
+    return known(sequences, qualities)
 
 
 def _found(k: Known, length: float | None, *, is_reversed: bool, is_closed: bool) -> Found:

@@ -26,8 +26,10 @@ from math import gcd, inf
 import numpy as np
 
 from ..arrays import Bools, Floats, Ints
+from .pattern import Counts
 from .search_labels import Labels, Rest, Tail, path, stack, start, undominated
-from .search_strips import SLACK, Counts, Known, Strips, front, known, qualities_over
+from .search_strips import Known, Strips, front, known
+from .straight import SLACK, qualities_over
 
 STEP = 1e-4
 """Rise of Q above the worst pattern known: two more digits than anybody prints."""
@@ -50,7 +52,7 @@ def exact_front(
         new = sequences_at(strips, length, q, [k for k in found if k.quality >= q])
         if new:
             qualities = qualities_over(new, length, is_closed=strips.is_closed)
-            found = front([*found, *(known(c, max(q, r)) for c, r in zip(new, qualities, strict=True))])
+            found = front([*found, *known(new, np.maximum(q, qualities))])
         above = [k.quality for k in found if k.quality >= q]
         if not above or q >= last:
             return [k for k in found if k.quality >= least_quality]

@@ -14,7 +14,8 @@ from math import inf
 import numpy as np
 
 from ..arrays import Bools, Floats, Ints
-from .search_strips import SLACK, Counts
+from .pattern import Counts
+from .straight import SLACK
 
 CHUNK = 256
 """Labels compared with all kept ones at once: memory."""

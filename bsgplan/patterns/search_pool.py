@@ -6,7 +6,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from .search_strips import Counts, Known, front, known, qualities_over
+from .pattern import Counts
+from .search_strips import Known, costs, front, known
+from .straight import qualities_over, reaches
 
 MOST_STRIPS = 30_000
 """Strips of all neighbours measured in one round: about a tenth of a second of CPU."""
@@ -50,6 +52,7 @@ def improved(
     """
     best = front(pool)
     seen: set[Counts] = set()
+    tried = {k.counts for k in best}
     for _ in range(ROUNDS):
         trials: dict[Counts, None] = {}
         n_strips = 0
@@ -59,13 +62,28 @@ def improved(
             seen.add(k.counts)
             around = _neighbours(k.counts)
             n_strips += sum(len(c) - 1 for c in around)
-            trials.update(dict.fromkeys(around))
+            trials.update(dict.fromkeys(c for c in around if c not in tried))
         if not trials:
             break
-        qualities = qualities_over(list(trials), length, is_closed=is_closed)
-        better = [known(c, float(q)) for c, q in zip(trials, qualities, strict=True) if q >= least_quality]
+        tried.update(trials)
+        better = _better(list(trials), best, length, least_quality, is_closed=is_closed)
         best = front([*best, *better])
     return best
+
+
+def _better(
+    trials: list[Counts], best: list[Known], length: float | None, least_quality: float, *, is_closed: bool
+) -> list[Known]:
+    """Return the trials that reach the least quality, and more than any of the best that costs no more."""
+    held = np.array([(k.n_blocks, k.positive) for k in best]).reshape(-1, 2)
+    is_held = (held <= costs(trials)[:, None]).all(axis=2)
+    wanted = np.where(is_held, [k.quality for k in best], 0.0).max(axis=1, initial=least_quality)
+    is_new = reaches(trials, length, wanted, is_closed=is_closed)
+    left = [c for c, new in zip(trials, is_new, strict=True) if new]
+    if not left:
+        return []
+    qualities = qualities_over(left, length, is_closed=is_closed)
+    return [k for k in known(left, qualities) if k.quality >= least_quality]
 
 
 def _neighbours(counts: Counts) -> list[Counts]:

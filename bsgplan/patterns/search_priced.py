@@ -13,13 +13,16 @@ Only sequences on the lower convex side of what can be had are found: the prunin
 
 from __future__ import annotations
 
+from functools import lru_cache
 from itertools import product
 from math import ceil
 
 import numpy as np
 
-from ..arrays import Floats, Ints
-from .search_strips import SLACK, Counts, Strips
+from ..arrays import Floats, Ints, frozen_floats
+from .pattern import Counts
+from .search_strips import Strips
+from .straight import SLACK
 
 QUALITIES = (0.0, 0.25, 0.4, 0.55, 0.65, 0.73, 0.79, 0.85, 0.9, 0.94, 0.98, 1.0)
 """Places of the tried Q between the least quality and the best that a strip has."""
@@ -38,21 +41,33 @@ def priced_sequences(strips: Strips, length: float | None, *, least_quality: flo
     >>> (28, 14, 7, 4) in priced_sequences(strips_between(28, 4), None, least_quality=0.3)
     True
     """
+    low, high, paths = _bargains(strips, least_quality, is_free=length is None)
+    found: dict[Counts, None] = {}
+    for path, level in paths:
+        for filled in _filled(path, low[level], high[level], length):
+            found[filled] = None
+    return list(found)
+
+
+@lru_cache(maxsize=256)
+def _bargains(
+    strips: Strips, least_quality: float, *, is_free: bool
+) -> tuple[Floats, Floats, tuple[tuple[Counts, int], ...]]:
+    """Return the widths of strips at the qualities tried, and the cheapest sequences with their quality.
+
+    Widths are two of (n_qualities, fine + 1, fine + 1), in heights. Prices of length do not depend on the
+    length: many transitions between the same counts share this.
+    """
     top = float(strips.caps.max())
     levels = [least_quality + (top - least_quality) * share for share in QUALITIES]
     levels = [min(q, top * (1 - SLACK)) for q in levels]
     unit = 4 * strips.fine * strips.coarse  # blocks a height of strips of 2 n blocks and 1 / (2 n) heights
-    prices = (0.0,) if length is None else tuple(unit * p for p in LENGTH_PRICES)
+    prices = (0.0,) if is_free else tuple(unit * p for p in LENGTH_PRICES)
     triples = np.array([*product(range(len(levels)), TURN_PRICES, prices)])
-    intervals = [strips.intervals(q) for q in levels]
-    low, high = (np.stack(part) for part in zip(*intervals, strict=True))
-    paths = _cheapest(strips, low, high, triples)
-    found: dict[Counts, None] = {}
-    for path, level in zip(paths, triples[:, 0].astype(int), strict=True):
-        if path is not None:
-            for filled in _filled(path, low[level], high[level], length):
-                found[filled] = None
-    return list(found)
+    low, high = (np.stack(part) for part in zip(*map(strips.intervals, levels), strict=True))
+    paths = zip(_cheapest(strips, low, high, triples), triples[:, 0].astype(int).tolist(), strict=True)
+    cheapest = dict.fromkeys((path, level) for path, level in paths if path is not None)
+    return frozen_floats(low), frozen_floats(high), tuple(cheapest)
 
 
 def _cheapest(strips: Strips, low: Floats, high: Floats, triples: Floats) -> list[Counts | None]:

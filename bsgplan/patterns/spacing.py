@@ -6,20 +6,25 @@ is never worse than the uniform one or the paper's.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..arrays import Floats, frozen_floats
 from ..errors import InvalidOption
+from .alike import Alike, alike
 from .frustum import pattern_qualities
 from .pattern import Pattern
 from .placement import place
 from .shape import Shape
-from .width import best_width, form_quality, strip_form, width_intervals
+from .straight import straight_widths
 
 FIXED_POINT_ROUNDS = 20
 """Rounds at most of widths from front lengths from widths; a straight region needs two."""
+
+MOST_STRIPS = 256
+"""Strips placed at once: their trials fit the cache of a processor core."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,20 +57,32 @@ def best_spacing(pattern: Pattern, shape: Shape) -> Spacing:
     >>> round(spacing.q_min, 3)
     0.736
     """
-    _check_kind(pattern, shape)
-    if shape.is_straight:
-        widths = shape.height * straight_widths(pattern, shape.length / shape.height)
-        return spacing_at(pattern, shape, _positions(widths, shape.length))
-    straight = straight_widths(pattern, shape.length / shape.height)
-    starts = [
-        uniform_spacing(pattern, shape),
-        paper_spacing(pattern, shape),
-        _proportional(pattern, shape, np.add),
-        spacing_at(pattern, shape, _positions(straight, shape.length)),
-    ]
-    start = max(starts, key=lambda spacing: spacing.q_min)
-    placed = spacing_at(pattern, shape, place(pattern, shape, start.positions))
-    return max(start, placed, key=lambda spacing: spacing.q_min)
+    return best_spacings([pattern], [shape])[0]
+
+
+def best_spacings(patterns: Sequence[Pattern], shapes: Sequence[Shape]) -> list[Spacing]:
+    """Return the best spacing of each pattern in its shape, see `best_spacing`; many cost less than each.
+
+    >>> patterns = [Pattern.parse(text) for text in ("7:4:2:1", "7:4:1")]
+    >>> [round(s.q_min, 3) for s in best_spacings(patterns, [Shape.rectangle(0.7)] * 2)]
+    [0.736, 0.5]
+    """
+    groups: dict[tuple[int, bool, bool], list[int]] = {}
+    for k, (pattern, shape) in enumerate(zip(patterns, shapes, strict=True)):
+        _check_kind(pattern, shape)
+        groups.setdefault((pattern.n_layers, shape.is_closed, shape.is_straight), []).append(k)
+    found: dict[int, Spacing] = {}
+    for (n_layers, _, is_straight), group in groups.items():
+        at_once = max(1, MOST_STRIPS // n_layers)
+        for part in (group[k : k + at_once] for k in range(0, len(group), at_once)):
+            these = alike([patterns[k] for k in part], [shapes[k] for k in part])
+            heights = np.array([shapes[k].height for k in part])
+            positions = _positions_in_rectangles(these, heights)
+            if not is_straight:
+                positions = _best_positions(these, positions)
+            each = zip(part, positions, these.qualities(positions).tolist(), strict=True)
+            found.update({k: Spacing(row, q, is_straight) for k, row, q in each})
+    return [found[k] for k in range(len(patterns))]
 
 
 def paper_spacing(pattern: Pattern, shape: Shape) -> Spacing:
@@ -77,13 +94,13 @@ def paper_spacing(pattern: Pattern, shape: Shape) -> Spacing:
     [0.0, 1.0, 3.0]
     """
     _check_kind(pattern, shape)
-    return _proportional(pattern, shape, np.maximum)
+    return spacing_at(pattern, shape, _proportional(alike([pattern], [shape]), np.maximum)[0])
 
 
 def uniform_spacing(pattern: Pattern, shape: Shape) -> Spacing:
     """Return front positions at equal distances."""
     _check_kind(pattern, shape)
-    return spacing_at(pattern, shape, np.linspace(0, shape.length, pattern.n_fronts))
+    return spacing_at(pattern, shape, _uniform(alike([pattern], [shape]))[0])
 
 
 def spacing_at(pattern: Pattern, shape: Shape, positions: Floats) -> Spacing:
@@ -91,52 +108,50 @@ def spacing_at(pattern: Pattern, shape: Shape, positions: Floats) -> Spacing:
     return Spacing(positions, float(pattern_qualities(pattern, shape, positions).min()), shape.is_straight)
 
 
-def straight_widths(pattern: Pattern, length: float) -> Floats:
-    """Return the widths of the strips that maximise q_min over a length, at height 1, (n_layers,).
-
-    Bisection on Q: a quality can be reached where the length lies between the sums of the smallest and of
-    the largest widths that reach it.
-
-    >>> straight_widths(Pattern.parse("4:2:1"), 0.75).round(3).tolist()
-    [0.25, 0.5]
-    """
-    closed, strips = pattern.is_closed, pattern.strips
-    forms = np.stack([strip_form(m, n, is_closed=closed) for m, n in strips])
-    widths, qualities = np.array([best_width(m, n, is_closed=closed) for m, n in strips]).T
-    reached = float(form_quality(forms, widths * (length / widths.sum())).min())
-    missed = float(qualities.min())
-    if _is_reached(forms, missed, length):
-        reached = missed
-    while reached < (q := (reached + missed) / 2) < missed:
-        reached, missed = (q, missed) if _is_reached(forms, q, length) else (reached, q)
-    low, high = width_intervals(forms, reached)
-    if not np.isfinite(low).all():  # at the peak of a strip, but for rounding: nothing beats this
-        return np.asarray(widths * (length / widths.sum()))
-    slack = high.sum() - low.sum()
-    share = np.clip((length - low.sum()) / slack, 0, 1) if slack > 0 else 0.5
-    widths = low + share * (high - low)
-    return np.asarray(widths * (length / widths.sum()))
+def _best_positions(patterns: Alike, straight: Floats) -> Floats:
+    """Return the positions placed from the best of four starts, or that start, (n, n_fronts), length."""
+    trials = [_uniform(patterns), *(_proportional(patterns, edge) for edge in (np.maximum, np.add)), straight]
+    start = _best_of(patterns, trials)
+    return _best_of(patterns, [start, place(patterns, start)])
 
 
-def _is_reached(forms: Floats, q: float, length: float) -> bool:
-    low, high = width_intervals(forms, q)
-    return bool(low.sum() <= length <= high.sum())
+def _best_of(patterns: Alike, trials: list[Floats]) -> Floats:
+    """Return of each pattern the positions with the largest smallest mean ratio, (n, n_fronts), length."""
+    best = np.argmax([patterns.qualities(positions) for positions in trials], axis=0)
+    return np.stack(trials)[best, np.arange(len(patterns))]
 
 
-def _proportional(pattern: Pattern, shape: Shape, combine: np.ufunc) -> Spacing:
-    counts = np.array(pattern.counts)
-    positions = np.linspace(0, shape.length, pattern.n_fronts)
+def _positions_in_rectangles(patterns: Alike, heights: Floats) -> Floats:
+    """Return the best positions in rectangles as long as the shapes, (n, n_fronts), length."""
+    sequences = [tuple(row) for row in patterns.counts.tolist()]
+    widths = straight_widths(sequences, patterns.lengths / heights, is_closed=patterns.is_closed)
+    return _positions(heights[:, None] * widths, patterns.lengths)
+
+
+def _uniform(patterns: Alike) -> Floats:
+    shares = np.linspace(0, 1, patterns.n_layers + 1)
+    return np.asarray(patterns.lengths[:, None] * shares)
+
+
+def _proportional(patterns: Alike, combine: np.ufunc) -> Floats:
+    """Return positions of widths proportional to the edges of both their fronts, combined, (n, n_fronts)."""
+    rows = np.arange(len(patterns))
+    positions = _uniform(patterns)
     for _ in range(FIXED_POINT_ROUNDS):
-        edges = shape.front_lengths(positions) / counts
-        last, positions = positions, _positions(combine(edges[:-1], edges[1:]), shape.length)
-        if np.abs(positions - last).max() < 1e-9 * shape.length:
+        edges = patterns.front_lengths(positions[rows], rows) / patterns.counts[rows]
+        last, length = positions[rows], patterns.lengths[rows]
+        positions[rows] = _positions(combine(edges[:, :-1], edges[:, 1:]), length)
+        rows = rows[np.abs(positions[rows] - last).max(axis=1) >= 1e-9 * length]
+        if not len(rows):
             break
-    return spacing_at(pattern, shape, positions)
+    return positions
 
 
-def _positions(widths: Floats, length: float) -> Floats:
-    ends = np.cumsum(widths)
-    return np.concatenate([[0.0], ends[:-1] * (length / ends[-1]), [length]])
+def _positions(widths: Floats, lengths: Floats) -> Floats:
+    """Return the positions of fronts these widths apart, stretched to the lengths, (n, n_fronts)."""
+    ends = np.cumsum(widths, axis=1)
+    inner = ends[:, :-1] * (lengths / ends[:, -1])[:, None]
+    return np.concatenate([np.zeros((len(widths), 1)), inner, lengths[:, None]], axis=1)
 
 
 def _check_kind(pattern: Pattern, shape: Shape) -> None:

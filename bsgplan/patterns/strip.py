@@ -106,3 +106,15 @@ def critical_table(m: int, n: int, *, is_closed: bool = False) -> Floats:
         turn = np.abs(table[3, side] - table[2, side])
         keep += sorted({side.start + int(turn.argmin()), side.start + int(turn.argmax())})
     return frozen_floats(table[:, keep])
+
+
+@lru_cache(maxsize=4096)
+def critical_turns(m: int, n: int, *, is_closed: bool = False) -> Floats:
+    """Return the smallest and the largest turn of apex against midpoint on each front, (2, 2).
+
+    >>> critical_turns(4, 2).tolist()
+    [[0.125, 0.125], [0.0, 0.0]]
+    """
+    table = strip_table(m, n, is_closed=is_closed)
+    turn = np.abs(table[3] - table[2])
+    return frozen_floats([[side.min(), side.max()] for side in (turn[:m], turn[m:])])

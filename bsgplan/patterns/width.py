@@ -16,7 +16,7 @@ from math import inf, sqrt
 
 import numpy as np
 
-from ..arrays import Floats, frozen_floats
+from ..arrays import Floats, Ints, frozen_floats
 from .strip import strip_table
 
 
@@ -55,6 +55,36 @@ def best_width(m: int, n: int, *, height: float = 1.0, is_closed: bool = False) 
         candidates.append(sqrt(crossing))
     q, w = max((strip_quality(m, n, w, is_closed=is_closed), w) for w in candidates)
     return w * height, q
+
+
+def strip_forms(first: Ints, second: Ints, *, is_closed: bool = False) -> Floats:
+    """Return `strip_form` of strips between these counts, (..., 2, 2), in closed form.
+
+    The midpoints of the edges of one front, in units of 1 / (2 lcm), meet every odd residue between two
+    vertices of the other where both reduced counts are odd, every even or every odd one under the half
+    otherwise: the largest offset from the nearest vertex is half an edge of the other front where both are
+    odd and the strip is open, 1 / (2 lcm) less elsewhere.
+
+    >>> strip_forms(np.array(1), np.array(1)).tolist()
+    [[1.0, 2.0], [1.0, 2.0]]
+    """
+    shared, least = np.gcd(first, second), np.lcm(first, second)
+    is_tied = ((first // shared) % 2 == 1) & ((second // shared) % 2 == 1) & (not is_closed)
+    less = np.where(is_tied, 0.0, 0.5 / least)
+    base = 1 / np.stack([first, second], axis=-1)
+    offset = base[..., ::-1] / 2 - less[..., None]
+    return np.stack([base, 1.5 * base**2 + 2 * offset**2], axis=-1)
+
+
+def best_widths(forms: Floats) -> tuple[Floats, Floats]:
+    """Return `best_width` of strips of these forms, (n, 2, 2): widths and mean ratios, two of (n,)."""
+    (b, c), (d, e) = forms.transpose(1, 2, 0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        square = (d * c - b * e) / (2 * (b - d))
+    trials = np.sqrt(np.stack([c / 2, e / 2, np.where(square > 0, square, c / 2)]))  # (3, n)
+    qualities = np.stack([form_quality(forms, trial) for trial in trials])
+    pick = qualities.argmax(axis=0), np.arange(len(forms))
+    return trials[pick], qualities[pick]
 
 
 def width_interval(

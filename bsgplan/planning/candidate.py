@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import cached_property, lru_cache
+from math import log
 
 import numpy as np
 
-from ..patterns import Bounds, Pattern, Shape, Spacing, best_spacing, best_width, bounds
+from ..patterns import Bounds, Pattern, Shape, Spacing, best_spacings, best_width, bounds
 from ..regions import Profile, Region
-from .fit import arithmetic, misfit, searched, sequences
+from .fit import arithmetic, misfits, searched, sequences
 
 LEAST_STRIP_QUALITY = 0.55
 """A strip that cannot reach this mean ratio at any width is advised against: 3:1 and 4:1 have .50, 7:1 .24
@@ -34,12 +36,15 @@ class Candidate:
     """rms of ln(block edge / wanted edge)."""
     wanted_blocks: float
     """Triangles of the region over triangles per block."""
-    bounds: Bounds = field(repr=False)
-    """What irregularity alone allows."""
     spacing: Spacing = field(repr=False)
     """Best front positions in the region's own shape, and q_min there."""
     rejected: str | None
     """Why it is advised against, or None."""
+
+    @cached_property
+    def bounds(self) -> Bounds:
+        """What irregularity alone allows."""
+        return bounds(self.pattern)
 
     @property
     def n_blocks(self) -> int:
@@ -62,32 +67,39 @@ class Candidate:
         return abs(float(np.log(self.n_blocks / self.wanted_blocks)))
 
 
-def candidates(region: Region, tris_per_block: int) -> tuple[Candidate, ...]:
-    """Return the patterns proposed for a transition region, best fit first, rejected ones last."""
+def candidates(regions: Sequence[Region], tris_per_block: int) -> list[tuple[Candidate, ...]]:
+    """Return the patterns proposed for each transition region, best fit first, rejected ones last."""
+    side = float(np.sqrt(tris_per_block))
+    shapes = [region_shape(region.profile, side, is_closed=region.is_closed) for region in regions]
+    proposed = [_proposed(region, tris_per_block) for region in regions]
+    each = [
+        (k, Pattern(counts, regions[k].is_closed)) for k, found in enumerate(proposed) for counts in found
+    ]
+    spacings = best_spacings([pattern for _, pattern in each], [shapes[k] for k, _ in each])
+    made: list[list[Candidate]] = [[] for _ in regions]
+    for (k, pattern), spacing in zip(each, spacings, strict=True):
+        error, wanted = proposed[k][pattern.counts], regions[k].weight / tris_per_block
+        made[k].append(
+            Candidate(pattern, tris_per_block, error, wanted, spacing, _objection(pattern, spacing))
+        )
+    for found in made:
+        found.sort(key=lambda c: (c.rejected is not None, c.misfit + c.count_misfit, c.pattern.counts))
+    return [tuple(found) for found in made]
+
+
+def _proposed(region: Region, tris_per_block: int) -> dict[tuple[int, ...], float]:
+    """Return the counts proposed for a region and their misfit: good fits, the search's best, the paper's."""
     side = float(np.sqrt(tris_per_block))
     least = 3 if region.is_closed else 1
-    shape = region_shape(region.profile, side, is_closed=region.is_closed)
     wanted = region.weight / tris_per_block
     counts = sequences(region.profile, side, least=least)
     best = searched(region.profile, side, is_closed=region.is_closed)
-    worth = {c: _worth(c, region.profile, side, wanted) for c in [*counts, *best]}
+    papers = arithmetic(region.profile, side, least=least)
+    error = misfits(dict.fromkeys([*counts, *best, *papers]), region.profile, side)
+    worth = {c: error[c] + abs(log(Pattern(c).n_blocks / wanted)) for c in error}
     kept = _prune(sorted(counts, key=lambda c: (worth[c], len(c), c)))
     more = sorted(set(best) - set(kept), key=lambda c: (worth[c] - best[c], len(c), c))
-    kept += more[:MOST_SEARCHED]
-    kept += [c for c in arithmetic(region.profile, side, least=least) if c not in kept]
-    made = [
-        _candidate(
-            Pattern(c, is_closed=region.is_closed),
-            shape,
-            tris_per_block,
-            wanted,
-            misfit(c, region.profile, side),
-        )
-        for c in kept
-    ]
-    return tuple(
-        sorted(made, key=lambda c: (c.rejected is not None, c.misfit + c.count_misfit, c.pattern.counts))
-    )
+    return {c: error[c] for c in [*kept, *more[:MOST_SEARCHED], *papers]}
 
 
 def region_shape(profile: Profile, side: float, *, is_closed: bool) -> Shape:
@@ -108,26 +120,19 @@ def strip_cap(m: int, n: int) -> float:
     return best_width(max(m, n), min(m, n))[1]
 
 
-def _candidate(pattern: Pattern, shape: Shape, tris_per_block: int, wanted: float, error: float) -> Candidate:
-    spacing = best_spacing(pattern, shape)
-    objection = _objection(pattern)
-    if objection is None and spacing.q_min <= 0:
-        objection = "its blocks turn inside out in the shape of this region, wherever its fronts stand"
-    return Candidate(pattern, tris_per_block, error, wanted, bounds(pattern), spacing, objection)
-
-
-def _objection(pattern: Pattern) -> str | None:
+def _objection(pattern: Pattern, spacing: Spacing) -> str | None:
+    """Return why a pattern is advised against, or None."""
     steep = [(max(s), min(s)) for s in pattern.strips if max(s) > 2 * min(s)]
     caps = [(strip_cap(*s), s) for s in steep]
-    if not caps or min(caps)[0] >= LEAST_STRIP_QUALITY:
-        return None
-    cap, (m, n) = min(caps)
-    what = "anisotropic" if m > 4 * n else "asymmetric"
-    return f"strip {m}:{n} is {what}: its mean ratio stays under {cap:.2f} at any width; put a front between"
-
-
-def _worth(counts: tuple[int, ...], profile: Profile, side: float, wanted: float) -> float:
-    return misfit(counts, profile, side) + abs(float(np.log(Pattern(counts).n_blocks / wanted)))
+    if caps and min(caps)[0] < LEAST_STRIP_QUALITY:
+        cap, (m, n) = min(caps)
+        what = "anisotropic" if m > 4 * n else "asymmetric"
+        return (
+            f"strip {m}:{n} is {what}: its mean ratio stays under {cap:.2f} at any width; put a front between"
+        )
+    if spacing.q_min <= 0:
+        return "its blocks turn inside out in the shape of this region, wherever its fronts stand"
+    return None
 
 
 def _steepest(counts: tuple[int, ...]) -> float:

@@ -9,16 +9,18 @@ the middle sum being Eq. 16 of [Zint & Grosso] with the ends of Eq. 17 and 18. A
 field, a high one saves irregular vertices; beside these stand the arithmetic and the geometric sequence.
 
 A second source looks at quality and knows of the profile only its ends and its length: the Pareto front of
-`patterns.search` over blocks, irregularity and quality, of which those near the profile are of use.
+`patterns.shortlist` over blocks, irregularity and quality, of which those near the profile are of use.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
+from math import ceil, floor, log
+
 import numpy as np
 
 from ..arrays import Floats, Ints
-from ..errors import NoPatternFits
-from ..patterns import search
+from ..patterns import shortlist
 from ..patterns.search import EXACT
 from ..regions import Profile
 
@@ -48,8 +50,8 @@ def sequences(profile: Profile, side: float, *, least: int = 1) -> list[tuple[in
     come in the numbers just under and over layers / s, one less, and one more where there are few.
     """
     ideal = profile.layers / side
-    floor = int(np.floor(ideal))
-    n_strips = {max(1, n) for n in (floor - 1, floor, floor + 1)} | ({floor + 2} if ideal < 3 else set())
+    under = floor(ideal)
+    n_strips = {max(1, n) for n in (under - 1, under, under + 1)} | ({under + 2} if ideal < 3 else set())
     fine, coarse = _ends(profile, side, least)
     found: dict[tuple[int, ...], None] = {}
     for n in sorted(n_strips):
@@ -57,9 +59,10 @@ def sequences(profile: Profile, side: float, *, least: int = 1) -> list[tuple[in
         same_blocks = wanted * np.clip(ideal / n, 0.7, 1.4)
         found[_whole(np.linspace(fine, coarse, n + 1), least)] = None
         found[_whole(np.geomspace(fine, coarse, n + 1), least)] = None
-        for target in (wanted, same_blocks, _followable(same_blocks)):
-            for price in PRICES:
-                found[_best_sequence(np.maximum(target, least), price, least)] = None
+        targets = [wanted, same_blocks, _followable(same_blocks)]
+        for k, target in enumerate(targets):
+            if not any(np.array_equal(target, other) for other in targets[:k]):
+                found.update(dict.fromkeys(_best_sequences(np.maximum(target, least), least)))
     if ideal < 4:
         found[fine, coarse] = None
     return list(found)
@@ -70,12 +73,11 @@ def followed(profile: Profile, fine: int, coarse: int, *, least: int = 1) -> lis
 
     One for each price of irregular vertices, on the strips just under and over the layers.
     """
-    n_strips = sorted({max(1, int(np.floor(profile.layers))), max(1, int(np.ceil(profile.layers)))})
+    n_strips = sorted({max(1, floor(profile.layers)), max(1, ceil(profile.layers))})
     found: dict[tuple[int, ...], None] = {}
     for n in n_strips:
         wanted = np.maximum(block_counts(profile, 1.0, n), least)
-        for price in PRICES:
-            found[_best_sequence(wanted, price, least, ends=(fine, coarse))] = None
+        found.update(dict.fromkeys(_best_sequences(wanted, least, ends=(fine, coarse))))
     return list(found)
 
 
@@ -91,11 +93,8 @@ def searched(profile: Profile, side: float, *, is_closed: bool) -> dict[tuple[in
     if max(fine, coarse) > EXACT or length > LONGEST_SEARCHED:
         return {}
     ideal = profile.layers / side
-    try:
-        found = search(fine, coarse, length=length, least_quality=LEAST_SEARCHED, is_closed=is_closed)
-    except NoPatternFits:
-        return {}
-    return {f.pattern.counts: f.q_min for f in found if -1 <= f.pattern.n_layers - np.floor(ideal) <= 2}
+    found = shortlist(fine, coarse, length=length, least_quality=LEAST_SEARCHED, is_closed=is_closed)
+    return {f.pattern.counts: f.q_min for f in found if -1 <= f.pattern.n_layers - floor(ideal) <= 2}
 
 
 def arithmetic(profile: Profile, side: float, *, least: int = 1) -> list[tuple[int, ...]]:
@@ -105,7 +104,7 @@ def arithmetic(profile: Profile, side: float, *, least: int = 1) -> list[tuple[i
     """
     ideal = profile.layers / side
     fine, coarse = _ends(profile, side, least)
-    strips = sorted({max(1, int(np.floor(ideal))), max(1, int(np.ceil(ideal)))})
+    strips = sorted({max(1, floor(ideal)), max(1, ceil(ideal))})
     return [_whole(np.linspace(fine, coarse, n + 1), least) for n in strips]
 
 
@@ -121,11 +120,23 @@ def misfit(counts: tuple[int, ...], profile: Profile, side: float) -> float:
     Edges along the fronts have ln(t_k / f_k), edges across all strips ln(layers / (s K)); fronts weigh the
     same, for the two at the ends must meet their neighbours, and across weighs as much as along.
     """
-    n_strips = len(counts) - 1
-    wanted = block_counts(profile, side, n_strips)
-    along = (np.log(wanted / np.asarray(counts)) ** 2).mean()
-    across = np.log(profile.layers / (side * n_strips)) ** 2
-    return float(np.sqrt((along + across) / 2))
+    return misfits([counts], profile, side)[counts]
+
+
+def misfits(
+    sequences: Iterable[tuple[int, ...]], profile: Profile, side: float
+) -> dict[tuple[int, ...], float]:
+    """Return the `misfit` of each of many sequences."""
+    alike: dict[int, list[tuple[int, ...]]] = {}
+    for counts in sequences:
+        alike.setdefault(len(counts) - 1, []).append(counts)
+    found: dict[tuple[int, ...], float] = {}
+    for n_strips, group in alike.items():
+        wanted = block_counts(profile, side, n_strips)
+        along = (np.log(wanted / np.array(group)) ** 2).mean(axis=1)
+        across = log(profile.layers / (side * n_strips)) ** 2
+        found.update(zip(group, np.sqrt((along + across) / 2).tolist(), strict=True))
+    return found
 
 
 def _ends(profile: Profile, side: float, least: int) -> tuple[int, int]:
@@ -153,36 +164,37 @@ def _whole(wanted: Floats, least: int) -> tuple[int, ...]:
     return tuple(int(n) for n in np.maximum(least, np.rint(wanted)))
 
 
-def _best_sequence(
-    wanted: Floats, price: float, least: int, *, ends: tuple[int, int] | None = None
-) -> tuple[int, ...]:
-    """Return the cheapest sequence near wanted, by dynamic programming over pairs of fronts."""
-    choices = [_choices(t, least) for t in wanted]
+def _best_sequences(
+    wanted: Floats, least: int, *, prices: Sequence[float] = PRICES, ends: tuple[int, int] | None = None
+) -> list[tuple[int, ...]]:
+    """Return the cheapest sequence near wanted at each price, by dynamic programming over pairs of fronts."""
+    choices = [_choices(t, least) for t in wanted.tolist()]
     if ends is not None:
         choices[0], choices[-1] = (np.array([end]) for end in ends)
     fits = [(np.log(c / t) / TOLERANCE) ** 2 for c, t in zip(choices, wanted, strict=True)]
     first, second = choices[0], choices[1]
+    price = np.array(prices)[:, None, None]
     cost = fits[0][:, None] + fits[1][None, :] + _strip_cost(first, second)
-    cost += price * np.abs(second[None, :] - first[:, None])
+    cost = cost + price * np.abs(second[None, :] - first[:, None])
     came_from: list[Ints] = []
     for k in range(2, len(choices)):
         a, b, c = choices[k - 2], choices[k - 1], choices[k]
         bend = np.abs(a[:, None, None] - 2 * b[None, :, None] + c[None, None, :])
-        total = cost[:, :, None] + price * bend
-        came_from.append(total.argmin(axis=0))
-        cost = total.min(axis=0) + fits[k][None, :] + _strip_cost(b, c)
-    last_step = np.abs(choices[-2][:, None] - choices[-1][None, :])
-    i, j = np.unravel_index(int((cost + price * last_step).argmin()), cost.shape)
-    path = [int(j), int(i)]
+        total = cost[:, :, :, None] + price[..., None] * bend
+        came_from.append(total.argmin(axis=1))
+        cost = total.min(axis=1) + fits[k][None, :] + _strip_cost(b, c)
+    cost = cost + price * np.abs(choices[-2][:, None] - choices[-1][None, :])
+    i, j = np.unravel_index(cost.reshape(len(cost), -1).argmin(axis=1), cost.shape[1:])
+    path, every = [j, i], np.arange(len(cost))
     for back in reversed(came_from):
-        path.append(int(back[path[-1], path[-2]]))
-    return tuple(int(choices[k][i]) for k, i in enumerate(reversed(path)))
+        path.append(back[every, path[-1], path[-2]])
+    counts = [choice[at] for choice, at in zip(choices, reversed(path), strict=True)]
+    return [tuple(row) for row in np.stack(counts, axis=1).tolist()]
 
 
 def _choices(wanted: float, least: int) -> Ints:
-    reach = int(np.clip(np.ceil(WINDOW * wanted), 1, 8))
-    low, high = int(np.floor(wanted)) - reach, int(np.ceil(wanted)) + reach
-    return np.arange(max(least, low), max(least, high) + 1)
+    reach = min(max(ceil(WINDOW * wanted), 1), 8)
+    return np.arange(max(least, floor(wanted) - reach), max(least, ceil(wanted) + reach) + 1)
 
 
 def _strip_cost(first: Ints, second: Ints) -> Floats:

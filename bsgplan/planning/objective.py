@@ -10,6 +10,9 @@ from .candidate import Candidate
 GOOD_QUALITY = 0.8
 """Mean ratio above which better blocks no longer speed multigrid up (V-cycle factor .34 to .39)."""
 
+QUALITY_DIGITS = 9
+"""Digits of a mean ratio that count: patterns of equal strips differ by rounding beyond."""
+
 
 def _size(c: Candidate) -> tuple[float, ...]:
     return (c.misfit + 2 * c.count_misfit, c.pattern.irregularity.positive)
@@ -24,7 +27,7 @@ def _irregularity(c: Candidate) -> tuple[float, ...]:
 
 
 def _quality(c: Candidate) -> tuple[float, ...]:
-    return (-c.q_min, c.misfit + c.count_misfit)
+    return (-round(c.q_min, QUALITY_DIGITS), c.misfit + c.count_misfit)
 
 
 def _balanced(c: Candidate) -> tuple[float, ...]:

@@ -164,9 +164,11 @@ def estimate(
         raise InvalidOption(f"objective {objective!r} is unknown; choose one of {', '.join(OBJECTIVES)}")
     if not (np.isfinite(gradient_limit) and gradient_limit > 0):
         raise InvalidOption(f"gradient limit {gradient_limit:g} is not positive; give for example 0.6")
+    transitions = [region for region in regions if region.kind != UNIFORM]
+    found = dict(zip((r.id for r in transitions), candidates(transitions, tris_per_block), strict=True))
     plans = []
     for region in regions:
-        proposed = () if region.kind == UNIFORM else candidates(region, tris_per_block)
+        proposed = found.get(region.id, ())
         chosen = choose(proposed, objective) if proposed else None
         plans.append(RegionPlan(region, tris_per_block, proposed, chosen))
     counted = drivers(

@@ -22,14 +22,9 @@ from bsgplan.patterns.search import RESOLUTION
 from bsgplan.patterns.search_exact import STEP, exact_front
 from bsgplan.patterns.search_pool import improved, regular_sequences
 from bsgplan.patterns.search_priced import priced_sequences
-from bsgplan.patterns.search_strips import (
-    best_widths,
-    known,
-    qualities_over,
-    strip_forms,
-    strips_between,
-)
-from bsgplan.patterns.width import best_width, strip_form
+from bsgplan.patterns.search_strips import known, strips_between
+from bsgplan.patterns.straight import qualities_over
+from bsgplan.patterns.width import best_width, best_widths, strip_form, strip_forms
 
 
 @pytest.mark.parametrize("is_closed", [False, True])
@@ -75,7 +70,7 @@ def test_never_worse_than_arithmetic_geometric_and_the_paper(fine, coarse, lengt
         assert qualities_over(regular, length).max() < least
         return
     for counts, q in zip(regular, qualities_over(regular, length), strict=True):
-        k = known(counts, float(q))
+        (k,) = known([counts], [q])
         assert q < least or any(
             f.n_blocks <= k.n_blocks and f.positive <= k.positive and f.q_min >= q - RESOLUTION - STEP
             for f in found
@@ -91,7 +86,7 @@ def test_the_pruned_search_comes_close_to_the_exact_one(fine, coarse, length):
     strips = strips_between(fine, coarse)
     sequences = priced_sequences(strips, length, least_quality=0.3)
     qualities = qualities_over(sequences, length)
-    pool = [known(c, float(q)) for c, q in zip(sequences, qualities, strict=True) if q >= 0.3]
+    pool = [k for k in known(sequences, qualities) if k.quality >= 0.3]
     pruned = improved(pool, length, least_quality=0.3)
     gaps = [
         k.quality

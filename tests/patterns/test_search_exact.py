@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 from bsgplan.patterns import Pattern, Shape, best_spacing, search, width_interval
 from bsgplan.patterns.search import EXACT, LEAST_QUALITY, MOST_LAYERS, RESOLUTION, is_exact
 from bsgplan.patterns.search_exact import NEAR, STEP, exact_front, sequences_at
-from bsgplan.patterns.search_strips import front, known, qualities_over, strips_between
+from bsgplan.patterns.search_strips import front, known, strips_between
+from bsgplan.patterns.straight import qualities_over
 from bsgplan.patterns.width import best_width
 
 LEVELS = (0.32, 0.4, 0.5, 0.58, 0.65, 0.71, 0.75, 0.79, 0.82, 0.84, 0.855, 0.8649)
@@ -112,7 +113,7 @@ def test_at_free_length_all_strictly_decreasing_sequences_are_tried(fine, coarse
     }
     qualities = [min(caps[strip] for strip in pairwise(counts)) for counts in every]
     best = front(
-        [known(c, q) for c, q in zip(every, qualities, strict=True) if q >= LEAST_QUALITY],
+        [k for k in known(every, qualities) if k.quality >= LEAST_QUALITY],
     )
     found = exact_front(
         strips_between(fine, coarse, is_closed=is_closed), None, [], least_quality=LEAST_QUALITY
@@ -145,7 +146,7 @@ def test_equal_fronts_wait_for_the_coarse_end(coarse, more, layers, q):
     for counts in new:
         for n in range(coarse + 1, fine + 1):
             assert counts.count(n) <= n // np.gcd(n, coarse)
-    pairs = [(k.positive, k.n_blocks) for k in (known(c, q) for c in new)]
+    pairs = [(k.positive, k.n_blocks) for k in known(new, [q] * len(new))]
     assert sorted(pairs) == sorted(pairs, key=lambda pair: -pair[1])  # less iota+ costs blocks
 
 

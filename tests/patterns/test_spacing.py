@@ -10,9 +10,11 @@ from pattern_strategies import COUNTS, RINGS, shapes
 
 from bsgplan.errors import InvalidOption
 from bsgplan.patterns import Pattern, Shape, best_spacing, paper_spacing
+from bsgplan.patterns.alike import alike
 from bsgplan.patterns.frustum import pattern_qualities
 from bsgplan.patterns.placement import place
-from bsgplan.patterns.spacing import spacing_at, straight_widths, uniform_spacing
+from bsgplan.patterns.spacing import spacing_at, uniform_spacing
+from bsgplan.patterns.straight import straight_widths
 
 LENGTHS = (0.25, 0.5, 0.75, 1, 1.5, 2, 3)
 OVER_LENGTH = {
@@ -82,7 +84,7 @@ def test_straight_optimum_is_exact_and_scales(counts, length, scale):
     scaled = best_spacing(pattern, Shape.rectangle(length * scale, scale))
     assert scaled.q_min == pytest.approx(spacing.q_min, rel=1e-6)
     assert spacing.is_straight
-    widths = straight_widths(pattern, length)
+    (widths,) = straight_widths([counts], np.array([length]))
     assert widths.sum() == pytest.approx(length)
     for first, second in zip(range(len(widths) - 1), range(1, len(widths)), strict=True):
         for share in (-0.01, 0.01):  # no exchange of width between neighbours helps
@@ -97,7 +99,7 @@ def test_straight_optimum_is_exact_and_scales(counts, length, scale):
 def test_the_general_placement_agrees_with_the_closed_form_on_rectangles(counts, length):
     pattern, shape = Pattern(counts), Shape.rectangle(length)
     start = max(uniform_spacing(pattern, shape), paper_spacing(pattern, shape), key=lambda s: s.q_min)
-    placed = spacing_at(pattern, shape, place(pattern, shape, start.positions))
+    placed = spacing_at(pattern, shape, place(alike([pattern], [shape]), start.positions[None])[0])
     exact = best_spacing(pattern, shape).q_min
     assert start.q_min - 1e-9 <= placed.q_min <= exact + 1e-9
     assert placed.q_min >= exact - 0.01 - 0.05 * exact  # any counts at all; transitions below
@@ -107,9 +109,8 @@ def test_the_general_placement_is_within_a_hundredth_for_transitions():
     for text in ("4:2:1", "4:3:2:1", "7:4:2:1", "28:20:14:9:6:4", "3:5:2:7:7:1"):
         for length in (0.2, 0.5, 1.0, 3.0):
             pattern, shape = Pattern.parse(text), Shape.rectangle(length)
-            placed = spacing_at(
-                pattern, shape, place(pattern, shape, paper_spacing(pattern, shape).positions)
-            )
+            start = paper_spacing(pattern, shape).positions
+            placed = spacing_at(pattern, shape, place(alike([pattern], [shape]), start[None])[0])
             assert placed.q_min == pytest.approx(best_spacing(pattern, shape).q_min, abs=0.01)
 
 

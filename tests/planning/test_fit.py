@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from bsgplan.planning.fit import (
     STEEP,
     TOLERANCE,
-    _best_sequence,
+    _best_sequences,
     _choices,
     block_counts,
     misfit,
@@ -48,7 +48,7 @@ def test_the_dynamic_programme_is_as_cheap_as_trying_everything(
 ) -> None:
     wanted = [max(least, t) for t in wanted]
     every = product(*(_choices(t, least).tolist() for t in wanted))
-    found = _best_sequence(np.array(wanted), price, least)
+    (found,) = _best_sequences(np.array(wanted), least, prices=[price])
     assert min(found) >= least
     assert cost(found, wanted, price) == pytest.approx(min(cost(c, wanted, price) for c in every))
 
