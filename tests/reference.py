@@ -6,8 +6,14 @@ import math
 import struct
 from collections import defaultdict
 from collections.abc import Sequence
+from itertools import pairwise
+from typing import Any
 
 import numpy as np
+
+from bsgplan.patterns import Pattern, Shape, best_width, width_interval
+from bsgplan.patterns.frustum import mean_ratios
+from bsgplan.patterns.strip import critical_table
 
 Cells = list[list[int]]
 
@@ -253,3 +259,49 @@ def every_sequence(
         if max(len(paths), len(found)) > most:
             return None
     return found
+
+
+def straight_quality(counts: Sequence[int], length: float, *, is_closed: bool = False) -> float:
+    """The mean ratio of a straight pattern over a length: halving of Q, one strip at a time."""
+    low, high = 0.0, min(best_width(m, n, is_closed=is_closed)[1] for m, n in pairwise(counts))
+    for k in range(60):
+        q = high if k == 0 else (low + high) / 2
+        widths = [width_interval(m, n, q, is_closed=is_closed) for m, n in pairwise(counts)]
+        is_reached = sum(w[0] for w in widths) <= length <= sum(w[1] for w in widths)
+        low, high = (q, high) if is_reached else (low, q)
+    return low
+
+
+def placed(pattern: Pattern, shape: Shape, positions: Sequence[float]) -> list[float]:
+    """Front positions by the rounds of `patterns.placement`: one pattern, one pair of trials at a time."""
+    window, reached, here = 0.45, -math.inf, list(positions)
+    for _ in range(24):
+        widths = [b - a for a, b in pairwise(here)]
+        reach = [0.0, *(window * min(a, b) for a, b in pairwise(widths)), 0.0]
+        trials = [[x + r * (k - 4) / 4 for k in range(9)] for x, r in zip(here, reach, strict=True)]
+        strips = []
+        for (m, n), first, second in zip(pattern.strips, trials[:-1], trials[1:], strict=True):
+            table = critical_table(m, n, is_closed=pattern.is_closed)
+            strips.append([[_worst(table, shape, a, b, pattern.is_closed) for b in second] for a in first])
+        q = [math.inf] * 9
+        for strip in strips:
+            q = [max(min(q[i], strip[i][j]) for i in range(9)) for j in range(9)]
+        most = max(q)
+        paths: list[tuple[float, list[int]]] = [(0.0, [k]) for k in range(9)]
+        for strip in strips:
+            sums = [
+                [paths[i][0] + strip[i][j] if strip[i][j] >= most else -math.inf for i in range(9)]
+                for j in range(9)
+            ]
+            paths = [(max(s), [*paths[s.index(max(s))][1], j]) for j, s in enumerate(sums)]
+        best = max(paths, key=lambda path: path[0])[1]
+        here = [trial[k] for trial, k in zip(trials, best, strict=True)]
+        window, reached = (window if most - reached > 0.005 * abs(most) else window / 2), most
+        if window < 0.005:
+            break
+    return here
+
+
+def _worst(table: Any, shape: Shape, first: float, second: float, is_closed: bool) -> float:
+    lengths = shape.front_lengths(np.array([first, second]))
+    return float(mean_ratios(table, *lengths, np.array(second - first), is_closed=is_closed).min())

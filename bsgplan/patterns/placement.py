@@ -53,45 +53,48 @@ def place(patterns: Alike, positions: Floats) -> Floats:
 
 
 def _trial_qualities(patterns: Alike, rows: Ints, trials: Floats) -> tuple[Floats, Floats]:
-    """Return the smallest mean ratio of each strip for each pair of trials.
+    """Return the smallest mean ratio of each strip of these patterns for each pair of trials.
 
     The first and the last strip have one front that stays, (n, 2, n_trials); those between have pairs,
     (n, n_layers - 2, n_trials, n_trials).
     """
     lengths = patterns.front_lengths(trials, rows)
-    number = np.full(len(patterns), -1)
-    number[rows] = np.arange(len(rows))
+    last = patterns.n_layers - 1
+    ends, inner = np.array([0, last]), np.arange(1, last)
+    at_ends = (lengths[:, ends], lengths[:, ends + 1], trials[:, ends + 1] - trials[:, ends])
+    between = (
+        lengths[:, 1:last, :, None],
+        lengths[:, 2 : last + 1, None, :],
+        trials[:, 2 : last + 1, None, :] - trials[:, 1:last, :, None],
+    )
+    return _smallest_ratios(patterns, rows, ends, *at_ends), _smallest_ratios(patterns, rows, inner, *between)
+
+
+def _smallest_ratios(
+    patterns: Alike, rows: Ints, layers: Ints, first: Floats, second: Floats, width: Floats
+) -> Floats:
+    """Return the smallest mean ratio in each of these layers of these patterns, shaped as width is."""
+    if not width.size:
+        return width
     row, layer, side = patterns.critical
-
-    def smallest(strips: Ints, first: Floats, second: Floats, width: Floats) -> Floats:
-        place_of = np.full(patterns.n_layers, -1)
-        place_of[strips] = np.arange(len(strips))
-        meant = np.flatnonzero((number[row] >= 0) & (place_of[layer] >= 0))
-        where = number[row[meant]] * len(strips) + place_of[layer[meant]]
-        measures = gap_measures(first, second, width, is_closed=patterns.is_closed)
-        measures = measures.reshape(3, 2, len(rows) * len(strips), -1)
-        shares, turns = patterns.shares[meant, None], patterns.turns[meant, None]
-        at_once = max(1, MOST_AT_ONCE // measures.shape[3])
-        ratios = np.concatenate(
-            [
-                gap_ratios(
-                    shares[part],
-                    turns[part],
-                    *measures[:, side[meant[part]], where[part]],
-                    is_closed=patterns.is_closed,
-                )
-                for part in (slice(k, k + at_once) for k in range(0, len(meant), at_once))
-            ]
-        )
-        start = np.flatnonzero(np.diff(where, prepend=-1))
-        return np.asarray(np.minimum.reduceat(ratios, start)).reshape(width.shape)
-
-    ends, inner = np.array([0, patterns.n_layers - 1]), np.arange(1, patterns.n_layers - 1)
-    at_ends = smallest(ends, lengths[:, ends], lengths[:, ends + 1], trials[:, ends + 1] - trials[:, ends])
-    if not len(inner):
-        return at_ends, np.empty((len(rows), 0, trials.shape[2], trials.shape[2]))
-    first, second = lengths[:, inner, :, None], lengths[:, inner + 1, None, :]
-    return at_ends, smallest(inner, first, second, trials[:, inner + 1, None, :] - trials[:, inner, :, None])
+    number = np.full((len(patterns), patterns.n_layers), -1)  # of the strip among those asked for
+    number[rows[:, None], layers] = np.arange(len(rows) * len(layers)).reshape(len(rows), -1)
+    strip = number[row, layer]
+    asked = np.flatnonzero(strip >= 0)
+    strip, side = strip[asked], side[asked]
+    shares, turns = patterns.shares[asked, None], patterns.turns[asked, None]
+    measures = gap_measures(first, second, width, is_closed=patterns.is_closed)
+    measures = measures.reshape(3, 2, len(rows) * len(layers), -1)
+    at_once = max(1, MOST_AT_ONCE // measures.shape[3])
+    ratios = np.concatenate(
+        [
+            gap_ratios(shares[k], turns[k], *measures[:, side[k], strip[k]], is_closed=patterns.is_closed)
+            for k in (slice(start, start + at_once) for start in range(0, len(asked), at_once))
+        ]
+    )
+    return np.asarray(np.minimum.reduceat(ratios, np.flatnonzero(np.diff(strip, prepend=-1)))).reshape(
+        width.shape
+    )
 
 
 def _best_path(ends: Floats, inner: Floats) -> tuple[Floats, Ints]:

@@ -17,12 +17,13 @@ from bsgplan.patterns import (
     best_spacing,
     length_of_layers,
     search,
+    shortlist,
 )
 from bsgplan.patterns.search import RESOLUTION
 from bsgplan.patterns.search_exact import STEP, exact_front
 from bsgplan.patterns.search_pool import improved, regular_sequences
 from bsgplan.patterns.search_priced import priced_sequences
-from bsgplan.patterns.search_strips import known, strips_between
+from bsgplan.patterns.search_strips import front, known, strips_between
 from bsgplan.patterns.straight import qualities_over
 from bsgplan.patterns.width import best_width, best_widths, strip_form, strip_forms
 
@@ -196,3 +197,36 @@ def test_what_is_out_of_range_is_refused(fine, coarse, options):
 def test_layers_must_be_positive():
     with pytest.raises(InvalidOption, match="layers"):
         length_of_layers(28, 4, 0)
+
+
+@given(st.integers(1, 16), st.integers(1, 16), st.floats(0.1, 2))
+@settings(max_examples=15, deadline=None)
+def test_the_shortlist_is_matched_by_the_search_and_has_most_of_it(fine, coarse, length):
+    soon = shortlist(fine, coarse, length=length, least_quality=0.55)
+    try:
+        every = search(fine, coarse, length=length, least_quality=0.55)
+    except NoPatternFits:
+        assert soon == ()
+        return
+    for f in soon:
+        assert any(
+            e.n_blocks <= f.n_blocks and e.positive <= f.positive and e.q_min >= f.q_min - RESOLUTION - STEP
+            for e in every
+        )
+        assert f.q_min == pytest.approx(best_spacing(f.pattern, Shape.rectangle(length)).q_min, abs=1e-9)
+    assert not every or soon
+    assert len(soon) >= len(every) / 2
+
+
+def test_the_front_is_that_of_comparing_each_with_each():
+    rng = np.random.default_rng(60_127)
+    sequences = [tuple(sorted(rng.integers(1, 9, 4).tolist(), reverse=True)) for _ in range(200)]
+    pool = known(sequences, rng.random(200).round(2))
+    for resolution in (0.0, 0.05):
+        slow = []
+        for k in sorted(pool, key=lambda k: (k.n_blocks, k.positive, -k.quality, k.counts)):
+            if not any(o.positive <= k.positive and o.quality >= k.quality - resolution for o in slow):
+                slow.append(k)
+        fast = front(pool, resolution=resolution)
+        assert {id(k) for k in fast} == {id(k) for k in slow}
+        assert [k.quality for k in fast] == sorted((k.quality for k in slow), reverse=True)

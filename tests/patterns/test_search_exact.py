@@ -10,7 +10,7 @@ import reference
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from bsgplan.patterns import Pattern, Shape, best_spacing, search, width_interval
+from bsgplan.patterns import search, width_interval
 from bsgplan.patterns.search import EXACT, LEAST_QUALITY, MOST_LAYERS, RESOLUTION, is_exact
 from bsgplan.patterns.search_exact import NEAR, STEP, exact_front, sequences_at
 from bsgplan.patterns.search_strips import front, known, strips_between
@@ -43,18 +43,6 @@ def all_at(fine, coarse, length, q, *, is_closed=False):
     return found
 
 
-def quality(counts, length, *, is_closed=False):
-    """The mean ratio of a straight sequence by the slow ways: by the spacing, of rings by halving."""
-    if not is_closed:
-        return best_spacing(Pattern(counts), Shape.rectangle(length)).q_min
-    low, high = 0.0, 1.0
-    for _ in range(30):
-        q = (low + high) / 2
-        narrow, wide = np.transpose([width_interval(*s, q, is_closed=True) for s in pairwise(counts)])
-        low, high = (q, high) if narrow.sum() <= length <= wide.sum() else (low, q)
-    return low
-
-
 @given(st.integers(1, 16), st.integers(1, 15), st.floats(0.03, 1), st.booleans())
 @example(1, 15, 0.7, False)
 @example(7, 5, 0.2625, False)
@@ -74,7 +62,9 @@ def test_the_exact_front_misses_nothing_that_brute_force_finds(coarse, more, sha
         strips_between(fine, coarse, is_closed=is_closed), length, [], least_quality=LEAST_QUALITY
     )
     for k in found[:: max(1, len(found) // 4)]:  # what is told is true
-        assert quality(k.counts, length, is_closed=is_closed) == pytest.approx(k.quality, abs=1e-6)
+        assert reference.straight_quality(k.counts, length, is_closed=is_closed) == pytest.approx(
+            k.quality, abs=1e-6
+        )
     listed = search(fine, coarse, length=length, is_closed=is_closed) if found else ()
     for q in LEVELS:  # and nothing is missing
         every = all_at(fine, coarse, length, q, is_closed=is_closed)

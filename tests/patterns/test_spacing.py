@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import reference
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from pattern_strategies import COUNTS, RINGS, shapes
 
 from bsgplan.errors import InvalidOption
-from bsgplan.patterns import Pattern, Shape, best_spacing, paper_spacing
+from bsgplan.patterns import Pattern, Shape, best_spacing, best_spacings, paper_spacing
 from bsgplan.patterns.alike import alike
 from bsgplan.patterns.frustum import pattern_qualities
 from bsgplan.patterns.placement import place
@@ -175,3 +176,49 @@ def test_shapes_that_are_none_are_refused(positions, lengths):
 def test_open_and_closed_do_not_mix():
     with pytest.raises(InvalidOption, match="pattern 4:3 is closed but the shape is open"):
         best_spacing(Pattern((4, 3), is_closed=True), Shape.rectangle(1.0))
+
+
+@given(st.data(), st.booleans())
+@settings(max_examples=25, deadline=None)
+def test_many_at_once_are_placed_as_each_alone(data, is_closed):
+    """Patterns of several lengths in shapes of their own, straight ones among them: no row sees another."""
+    counts = data.draw(st.lists(RINGS if is_closed else COUNTS, min_size=2, max_size=7))
+    patterns = [Pattern(c, is_closed) for c in counts]
+    within = [data.draw(shapes(is_closed=is_closed)) for _ in counts]
+    if not is_closed:
+        within[0] = Shape.rectangle(2.0, 3.0)
+    for many, pattern, shape in zip(best_spacings(patterns, within), patterns, within, strict=True):
+        alone = best_spacing(pattern, shape)
+        assert many.q_min == pytest.approx(alone.q_min, rel=1e-9, abs=1e-9)
+        assert many.positions == pytest.approx(alone.positions, rel=1e-9, abs=1e-9 * shape.length)
+        assert many.q_min == pytest.approx(pattern_qualities(pattern, shape, many.positions).min(), abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("text", "is_closed"), [("2:1", False), ("7:4:1", False), ("9:7:4:2:1", False), ("12:9:6:6:5", True)]
+)
+@pytest.mark.parametrize("lengths", [(4.0, 1.0), (1.0, 2.0, 1.5), (2.0, 0.6, 0.5, 3.0)])
+def test_the_placement_is_that_of_one_trial_at_a_time(text, is_closed, lengths):
+    pattern = Pattern.parse(text, is_closed=is_closed)
+    front_lengths = np.array(lengths) * (5 if is_closed else 1)
+    shape = Shape(np.linspace(0, 1.2, len(lengths)), front_lengths, is_closed)
+    start = uniform_spacing(pattern, shape).positions
+    slow = reference.placed(pattern, shape, start.tolist())
+    (fast,) = place(alike([pattern], [shape]), start[None])
+    assert fast == pytest.approx(slow, abs=1e-6)
+    before, after = (pattern_qualities(pattern, shape, x).min() for x in (start, fast))
+    assert after >= before - 1e-9
+
+
+def test_fronts_of_many_shapes_are_those_of_each():
+    """Interpolation between the stations of each shape, its ends among them; none reads the next one's."""
+    first = Shape(np.array([0.0, 1e-3, 5.0]), np.array([1.0, 3.0, 2.0]))
+    second = Shape(np.array([0.0, 1e6]), np.array([7.0, 9.0]))
+    both = alike([Pattern((2, 1))] * 2, [first, second])
+    shares = np.array([0.0, 1e-4, 0.3, 1.0])
+    positions = np.stack([shares * 5.0, shares * 1e6])
+    found = both.front_lengths(positions, np.array([0, 1]))
+    assert found[0] == pytest.approx(first.front_lengths(positions[0]))
+    assert found[1] == pytest.approx(second.front_lengths(positions[1]))
+    (alone,) = both.front_lengths(positions[1:], np.array([1]))
+    assert alone == pytest.approx(found[1])

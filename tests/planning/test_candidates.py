@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,8 +12,10 @@ import shapely
 from bsgplan.errors import InvalidOption
 from bsgplan.io import read
 from bsgplan.mesh import clean
+from bsgplan.patterns import Spacing
 from bsgplan.planning import OBJECTIVES, Candidate, choose, estimate
-from bsgplan.regions import Regions, measure_regions
+from bsgplan.planning.candidate import candidates
+from bsgplan.regions import Regions, find_regions, measure_regions
 from bsgplan.regions.selection import triangles_inside
 from bsgplan.sizing import size_field
 
@@ -101,3 +104,29 @@ def test_blocks_too_large_for_the_coarse_front_are_said_to_be() -> None:
     assert part.largest_tris_per_block == 16
     (fitting,) = estimate(drawn(), tris_per_block=16).region_plans
     assert fitting.limited is None
+
+
+def test_a_tie_in_quality_is_no_matter_of_rounding(listed: dict[str, Candidate]) -> None:
+    """2:1:1:1 won over 2:2:2:1:1 by 1e-16, though it fits far worse."""
+    first, second = (listed[name] for name in ("7:4:2:1", "7:4:1"))
+    q = first.q_min
+    worse, better = sorted((first, second), key=lambda c: -(c.misfit + c.count_misfit))
+    tied = [
+        replace(worse, rejected=None, spacing=Spacing(worse.spacing.positions, q + 1e-15, True)),
+        replace(better, rejected=None, spacing=Spacing(better.spacing.positions, q, True)),
+    ]
+    assert choose(tied, "quality").pattern == better.pattern
+
+
+def test_the_patterns_of_a_region_do_not_depend_on_the_other_regions() -> None:
+    regions = [
+        r
+        for r in find_regions(size_field(read(CASES / "islands" / "mesh.msh").mesh))
+        if r.kind == "transition"
+    ]
+    together = candidates(regions, 16)
+    for k in (0, len(regions) // 2, len(regions) - 1):
+        (alone,) = candidates([regions[k]], 16)
+        assert [c.pattern for c in alone] == [c.pattern for c in together[k]]
+        assert [c.q_min for c in alone] == pytest.approx([c.q_min for c in together[k]], abs=1e-9)
+    assert candidates([], 16) == []

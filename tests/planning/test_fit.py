@@ -10,12 +10,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bsgplan.planning.fit import (
+    PRICES,
     STEEP,
     TOLERANCE,
     _best_sequences,
     _choices,
     block_counts,
     misfit,
+    misfits,
     sequences,
 )
 from bsgplan.regions import Profile
@@ -40,17 +42,15 @@ def cost(counts: tuple[int, ...], wanted: list[float], price: float) -> float:
 
 @given(
     st.lists(st.floats(1, 14), min_size=2, max_size=5),
-    st.sampled_from([0.0, 0.3, 2.0]),
     st.sampled_from([1, 3]),
 )
-def test_the_dynamic_programme_is_as_cheap_as_trying_everything(
-    wanted: list[float], price: float, least: int
-) -> None:
+def test_the_dynamic_programme_is_as_cheap_as_trying_everything(wanted: list[float], least: int) -> None:
+    """At every price, all prices together."""
     wanted = [max(least, t) for t in wanted]
-    every = product(*(_choices(t, least).tolist() for t in wanted))
-    (found,) = _best_sequences(np.array(wanted), least, prices=[price])
-    assert min(found) >= least
-    assert cost(found, wanted, price) == pytest.approx(min(cost(c, wanted, price) for c in every))
+    every = list(product(*(_choices(t, least).tolist() for t in wanted)))
+    for found, price in zip(_best_sequences(np.array(wanted), least), PRICES, strict=True):
+        assert min(found) >= least
+        assert cost(found, wanted, price) == pytest.approx(min(cost(c, wanted, price) for c in every))
 
 
 @given(
@@ -83,3 +83,14 @@ def test_a_pattern_that_follows_its_profile_has_no_misfit() -> None:
 
 def test_twice_the_blocks_along_and_across_are_ln_2_off() -> None:
     assert misfit((4, 4, 4), straight(8, 8, 4), 4) == pytest.approx(np.log(2))
+
+
+def test_misfits_of_many_are_those_of_each() -> None:
+    profile = straight(28, 4, 9.5)
+    many = [(7, 4, 1), (7, 5, 3, 1), (6, 4, 2), (7, 1)]
+    found = misfits(many, profile, 4)
+    assert list(found.values()) == pytest.approx([misfit(c, profile, 4) for c in found], rel=1e-12)
+    assert set(found) == set(many)
+    wanted = np.array([7.0, 4.0, 1.0])  # of 7:4:1 on its two strips, 9.5 layers in 2 of 4
+    along = (np.log(wanted / np.array([7, 4, 1])) ** 2).mean()
+    assert found[7, 4, 1] == pytest.approx(((along + np.log(9.5 / 8) ** 2) / 2) ** 0.5)
