@@ -24,7 +24,7 @@ GAIN = 0.005
 ROUNDS = 24
 """Rounds at most, where gains are small but steady."""
 
-MOST_AT_ONCE = 4096
+MOST_AT_ONCE = 16384
 """Trials measured at once: their arrays fit the cache of a processor core."""
 
 

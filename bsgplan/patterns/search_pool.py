@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -30,8 +31,13 @@ def regular_sequences(fine: int, coarse: int, length: float | None) -> list[Coun
     most = max(1, fine - coarse)
     if length is not None:
         most = max(most, 2 * int(np.ceil(length * (fine + coarse) / 3**0.5)))
+    return list(_regular(fine, coarse, min(most, MOST_LAYERS)))
+
+
+@lru_cache(maxsize=256)
+def _regular(fine: int, coarse: int, most: int) -> tuple[Counts, ...]:
     found: dict[Counts, None] = {}
-    for n in range(1, min(most, MOST_LAYERS) + 1):
+    for n in range(1, most + 1):
         for wanted in (np.linspace(fine, coarse, n + 1), np.geomspace(fine, coarse, n + 1)):
             found[tuple(int(c) for c in np.rint(wanted))] = None
     halving = [fine]
@@ -39,7 +45,7 @@ def regular_sequences(fine: int, coarse: int, length: float | None) -> list[Coun
         halving.append((halving[-1] + 1) // 2)
     if fine > coarse:
         found[tuple(halving if halving[-1] == coarse else [*halving, coarse])] = None
-    return list(found)
+    return tuple(found)
 
 
 def improved(

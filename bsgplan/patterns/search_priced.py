@@ -13,13 +13,14 @@ Only sequences on the lower convex side of what can be had are found: the prunin
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import lru_cache
 from itertools import product
 from math import ceil
 
 import numpy as np
 
-from ..arrays import Floats, Ints, frozen_floats
+from ..arrays import Floats, Ints
 from .pattern import Counts
 from .search_strips import Strips
 from .straight import SLACK
@@ -41,22 +42,32 @@ def priced_sequences(strips: Strips, length: float | None, *, least_quality: flo
     >>> (28, 14, 7, 4) in priced_sequences(strips_between(28, 4), None, least_quality=0.3)
     True
     """
-    low, high, paths = _bargains(strips, least_quality, is_free=length is None)
     found: dict[Counts, None] = {}
-    for path, level in paths:
-        for filled in _filled(path, low[level], high[level], length):
-            found[filled] = None
+    for bargain in _bargains(strips, least_quality, is_free=length is None):
+        found[bargain.counts] = None
+        if length is not None:
+            found.update(dict.fromkeys(_filled(bargain, length)))
     return list(found)
 
 
-@lru_cache(maxsize=256)
-def _bargains(
-    strips: Strips, least_quality: float, *, is_free: bool
-) -> tuple[Floats, Floats, tuple[tuple[Counts, int], ...]]:
-    """Return the widths of strips at the qualities tried, and the cheapest sequences with their quality.
+@dataclass(frozen=True)
+class _Bargain:
+    """A sequence that is cheapest at some prices, and the widths with its quality, in heights."""
 
-    Widths are two of (n_qualities, fine + 1, fine + 1), in heights. Prices of length do not depend on the
-    length: many transitions between the same counts share this.
+    counts: Counts
+    shortest: float
+    """Sum of the smallest widths."""
+    longest: float
+    """Sum of the largest widths."""
+    ends: tuple[tuple[float, float], ...]
+    """Smallest and largest width of a strip of equal fronts at the coarse and at the fine end."""
+
+
+@lru_cache(maxsize=1024)
+def _bargains(strips: Strips, least_quality: float, *, is_free: bool) -> tuple[_Bargain, ...]:
+    """Return the sequences that are cheapest at some prices, once for each quality tried.
+
+    Prices of length do not depend on the length: many transitions between the same counts share this.
     """
     top = float(strips.caps.max())
     levels = [least_quality + (top - least_quality) * share for share in QUALITIES]
@@ -67,7 +78,13 @@ def _bargains(
     low, high = (np.stack(part) for part in zip(*map(strips.intervals, levels), strict=True))
     paths = zip(_cheapest(strips, low, high, triples), triples[:, 0].astype(int).tolist(), strict=True)
     cheapest = dict.fromkeys((path, level) for path, level in paths if path is not None)
-    return frozen_floats(low), frozen_floats(high), tuple(cheapest)
+    return tuple(_bargain(path, low[level], high[level]) for path, level in cheapest)
+
+
+def _bargain(path: Counts, low: Floats, high: Floats) -> _Bargain:
+    first, second = np.array(path[:-1]), np.array(path[1:])
+    ends = tuple((float(low[end, end]), float(high[end, end])) for end in (path[-1], path[0]))
+    return _Bargain(path, float(low[first, second].sum()), float(high[first, second].sum()), ends)
 
 
 def _cheapest(strips: Strips, low: Floats, high: Floats, triples: Floats) -> list[Counts | None]:
@@ -112,18 +129,13 @@ def _walk(cost: Floats, fine: int, coarse: int, rate: Floats) -> list[Counts | N
     return [tuple(dict.fromkeys(walked[k, ::-1].tolist())) if is_found[k] else None for k in range(n)]
 
 
-def _filled(path: Counts, low: Floats, high: Floats, length: float | None) -> list[Counts]:
-    """Return the sequence, and it filled up at either end where its largest widths are too short."""
-    if length is None:
-        return [path]
-    first, second = np.array(path[:-1]), np.array(path[1:])
-    shortest, longest = low[first, second].sum(), high[first, second].sum()
-    found = [path]
-    for end in (path[-1], path[0]):
-        wide = high[end, end]
-        if longest < length and wide > 0:
-            r = ceil((length - longest) / wide * (1 - SLACK))
-            if r <= MOST_FILLED and shortest + r * low[end, end] <= length * (1 + SLACK):
+def _filled(bargain: _Bargain, length: float) -> list[Counts]:
+    """Return the sequence filled up at either end where its largest widths are too short."""
+    found, path = [], bargain.counts
+    for end, (narrow, wide) in zip((path[-1], path[0]), bargain.ends, strict=True):
+        if bargain.longest < length and wide > 0:
+            r = ceil((length - bargain.longest) / wide * (1 - SLACK))
+            if r <= MOST_FILLED and bargain.shortest + r * narrow <= length * (1 + SLACK):
                 more = (end,) * r
                 found.append(path + more if end == path[-1] else more + path)
     return found

@@ -91,7 +91,7 @@ class Strips:
         return low, high
 
 
-@lru_cache(maxsize=32)
+@lru_cache(maxsize=128)
 def strips_between(fine: int, coarse: int, *, is_closed: bool = False) -> Strips:
     """Return the strips that a non-increasing sequence from fine to coarse may use.
 

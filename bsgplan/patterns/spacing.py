@@ -23,8 +23,8 @@ from .straight import straight_widths
 FIXED_POINT_ROUNDS = 20
 """Rounds at most of widths from front lengths from widths; a straight region needs two."""
 
-MOST_STRIPS = 256
-"""Strips placed at once: their trials fit the cache of a processor core."""
+MOST_STRIPS = 1024
+"""Strips placed at once: memory, some 20 MB."""
 
 
 @dataclass(frozen=True, eq=False)
