@@ -24,7 +24,7 @@ FIXED_POINT_ROUNDS = 20
 """Rounds at most of widths from front lengths from widths; a straight region needs two."""
 
 MOST_STRIPS = 1024
-"""Strips placed at once: memory, some 20 MB."""
+"""Strips placed at once, which take some 10 MB."""
 
 
 @dataclass(frozen=True, eq=False)
