@@ -3,8 +3,8 @@
 A strip reaches mean ratio Q for widths in one interval (`width.width_intervals`), and the intervals of a
 pattern's strips add: it reaches Q over a length where sum lo(Q) <= length <= sum hi(Q). Both close in on each
 other as Q grows, so the best Q is where the length meets one of them, or the worst strip's own best. That
-meeting is found between two bounds, by false position with the Illinois rule, in psi of Q = best cos(psi):
-the widths have a square root at the best Q and none in psi.
+meeting is found between two bounds, by false position with the Illinois rule, in t of Q = best / cosh(t): the
+widths have a square root at the best Q and none in t, and far from it their logarithms are linear in t.
 """
 
 from __future__ import annotations
@@ -116,26 +116,26 @@ def _meeting(
     """Return the quality between reached and best at which the widths just make the length, (n_patterns,)."""
     start = np.concatenate([[0], np.cumsum(n_layers)[:-1]])
 
-    def excess(psi: Floats) -> Floats:
-        narrow, wide = _spans(forms, start, n_layers, best * np.cos(psi))
+    def excess(t: Floats) -> Floats:
+        narrow, wide = _spans(forms, start, n_layers, best / np.cosh(t))
         return np.where(is_short, np.log(narrow / lengths), np.log(lengths / wide))
 
-    inside, outside = np.arccos(reached / best), np.zeros(len(best))
+    inside, outside = np.arccosh(best / reached), np.zeros(len(best))
     low, high = excess(inside), excess(outside)  # at most 0, above 0
-    psi, here = inside, low
+    t, here = inside, low
     for _ in range(ROUNDS):
         is_found = (np.abs(here) <= CLOSE) | (high - low <= CLOSE) | (inside - outside <= CLOSE)
         if is_found.all():
             break
         step = np.divide(high, high - low, out=np.zeros(len(best)), where=~is_found)
-        psi = np.where(is_found, psi, outside + step * (inside - outside))
-        was_in, here = here <= 0, excess(psi)
+        t = np.where(is_found, t, outside + step * (inside - outside))
+        was_in, here = here <= 0, excess(t)
         is_in = here <= 0
         # Illinois: the bound that stays a second time counts half
         low = np.where(is_in, here, np.where(was_in, low, low / 2))
         high = np.where(is_in, np.where(was_in, high / 2, high), here)
-        inside, outside = np.where(is_in, psi, inside), np.where(is_in, outside, psi)
-    return np.asarray(best * np.cos(psi))
+        inside, outside = np.where(is_in, t, inside), np.where(is_in, outside, t)
+    return np.asarray(best / np.cosh(t))
 
 
 def _spans(forms: Floats, start: Ints, n_layers: Ints, q: Floats) -> tuple[Floats, Floats]:

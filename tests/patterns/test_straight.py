@@ -13,13 +13,21 @@ from bsgplan.patterns.straight import qualities_over, reaches, straight_widths
 from bsgplan.patterns.width import best_width, strip_quality
 
 
-@given(st.data(), st.floats(1e-4, 1e3), st.booleans())
+@given(st.data(), st.floats(1e-7, 1e7), st.booleans())
 @settings(max_examples=40, deadline=None)
 def test_the_quality_of_many_is_that_of_each_by_halving(data, length, is_closed):
     sequences = data.draw(st.lists(RINGS if is_closed else COUNTS, min_size=1, max_size=6))
     found = qualities_over(sequences, length, is_closed=is_closed)
     slow = [reference.straight_quality(counts, length, is_closed=is_closed) for counts in sequences]
     assert found == pytest.approx(slow, rel=1e-9)
+
+
+@pytest.mark.parametrize("length", [1e-12, 1e-7, 1e7, 1e12])
+def test_lengths_far_from_any_good_one_have_their_limits(length):
+    """Quality is proportional to the width in flat strips, to its inverse in long ones."""
+    many = [(7, 4, 2, 1), (3, 1), (12, 12, 9)]
+    nearer = length * (2 if length < 1 else 0.5)
+    assert qualities_over(many, length) == pytest.approx(qualities_over(many, nearer) / 2, rel=1e-6)
 
 
 @given(COUNTS, st.floats(0.02, 5))
