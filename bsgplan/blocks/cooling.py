@@ -14,6 +14,7 @@ import numpy as np
 from ..arrays import Floats
 from ..sizing.misfit import size_misfit
 from .domain import Domain
+from .order import in_order
 from .placed import PlacedMesh
 from .weights import SIZE_WEIGHT
 
@@ -91,7 +92,7 @@ def cooled(
     n_stages = min(STAGES, n_sweeps)
     for stage, part in enumerate(np.array_split(falling(schedule.hot, schedule.cold, n_sweeps), n_stages)):
         state = load(
-            domain, mesh, log_size,
+            domain, in_order(mesh), log_size,
             seed=seed + stage, size_weight=weight, bend_weight=bend_weight, offset=offset,
         )  # fmt: skip
         n_moves = schedule.moves * len(mesh.triangles)

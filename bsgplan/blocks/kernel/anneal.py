@@ -25,7 +25,6 @@ from .state import (
     FAN,
     GOAL,
     KIND,
-    N_TRIANGLES,
     N_VERTICES,
     NEAR,
     OVERFLOW,
@@ -60,8 +59,11 @@ MARGIN = 1.0
 HOPELESS = 1.5
 """A move whose valences alone cost so much over the acceptance is given up before any relaxation."""
 
-DRAWS = 60
-"""Vertices drawn in search of an irregular one."""
+VERTICES = 4.0
+"""A pass over the mesh makes one move for so many vertices: few enough that all are where the pass found them."""
+
+MOST_THERE = 8.0
+"""The most moves that a pass begins at one irregular vertex: where few are left the others move anywhere."""
 
 NONE = whole(-1)
 """No triangle, side or vertex."""
@@ -72,36 +74,80 @@ TOUCHED, RING = 0, 1
 
 @compiled
 def anneal(state: State, n_moves: int) -> int:
-    """Make n_moves moves at the state's temperature; return how many were accepted."""
-    n_accepted = 0
-    for _ in range(n_moves):
-        t = _somewhere(state)
-        if t < 0:
-            continue
-        side = below(state, 3)
-        begin(state)
-        n = _change(state, t, side)
-        if n == 0 or state.counter[OVERFLOW] != 0:
-            rollback(state)
-            continue
-        bound = -state.scalar[TEMPERATURE] * np.log(1.0 - uniform(state))
-        if state.scalar[DELTA_VALENCES] > bound + HOPELESS:
-            rollback(state)
-            continue
-        for i in range(n):
-            relax_vertex(state, state.fan[TOUCHED, i])
-        if state.scalar[DELTA] > bound + MARGIN or state.counter[OVERFLOW] != 0:
-            rollback(state)
-            continue
-        m = _ring(state, n)
-        for i in range(m):
-            relax_vertex(state, state.fan[RING, i])
-        if state.scalar[DELTA] > bound or state.counter[OVERFLOW] != 0 or not _are_upright(state, n):
-            rollback(state)
-            continue
-        commit(state)
-        n_accepted += 1
+    """Make about n_moves moves at the state's temperature; return how many were accepted.
+
+    They are made in passes over the vertices in the order of their rows: where rows that follow each other
+    lie near each other, so do the moves, and what they touch is in the cache.
+    """
+    n_done, n_accepted = 0, 0
+    while n_done < n_moves:
+        n_vertices, n_irregular = _count(state)
+        n_now = min(n_vertices / VERTICES, n_moves - n_done)
+        there = min(AT_IRREGULAR * n_now / max(n_irregular, 1), MOST_THERE)
+        anywhere = (n_now - there * n_irregular) / n_vertices
+        for v in range(state.counter[N_VERTICES]):
+            if state.vertex[v, TRIANGLE] >= 0 and uniform(state) < anywhere:
+                n_accepted += _moved(state, v, 0.0)
+                n_done += 1
+            if not _is_found(state, v):
+                continue
+            for _ in range(int(there + uniform(state))):
+                n_accepted += _moved(state, v, BESIDE)
+                n_done += 1
+                if not _is_found(state, v):
+                    break
     return n_accepted
+
+
+@inner
+def _is_found(state: State, v: int) -> bool:
+    return state.vertex[v, TRIANGLE] >= 0 and is_irregular(state, v)
+
+
+@inner
+def _count(state: State) -> tuple[int, int]:
+    """Return the number of vertices and that of the irregular ones."""
+    n_vertices, n_irregular = 0, 0
+    for v in range(state.counter[N_VERTICES]):
+        if state.vertex[v, TRIANGLE] >= 0:
+            n_vertices += 1
+            n_irregular += 1 if is_irregular(state, v) else 0
+    return n_vertices, n_irregular
+
+
+@inner
+def _moved(state: State, v: int, beside: float) -> int:
+    """Try one move in the star of a vertex, or with that chance one triangle beside it; return 1 if made."""
+    m, _ = fan_of(state, v, NEAR)
+    if m == 0:
+        return 0
+    t = state.fan[NEAR, below(state, m)]
+    if uniform(state) < beside:
+        across = state.triangle[t, 3 + below(state, 3)]
+        t = across if across >= 0 else t
+    side = below(state, 3)
+    begin(state)
+    n = _change(state, t, side)
+    if n == 0 or state.counter[OVERFLOW] != 0:
+        rollback(state)
+        return 0
+    bound = -state.scalar[TEMPERATURE] * np.log(1.0 - uniform(state))
+    if state.scalar[DELTA_VALENCES] > bound + HOPELESS:
+        rollback(state)
+        return 0
+    for i in range(n):
+        relax_vertex(state, state.fan[TOUCHED, i])
+    if state.scalar[DELTA] > bound + MARGIN or state.counter[OVERFLOW] != 0:
+        rollback(state)
+        return 0
+    m = _ring(state, n)
+    for i in range(m):
+        relax_vertex(state, state.fan[RING, i])
+    if state.scalar[DELTA] > bound or state.counter[OVERFLOW] != 0 or not _are_upright(state, n):
+        rollback(state)
+        return 0
+    commit(state)
+    return 1
 
 
 @inner
@@ -109,28 +155,6 @@ def is_irregular(state: State, v: int) -> bool:
     """Return True where the valence of a vertex is off its goal, at a corner by more than half an edge."""
     off = abs(state.vertex[v, VALENCE] - state.value[v, GOAL])
     return off > (0.51 if state.vertex[v, KIND] >= CORNER else 0.0)
-
-
-@inner
-def _somewhere(state: State) -> int:
-    """Return a triangle to begin at, -1 if none was met."""
-    if uniform(state) < AT_IRREGULAR:
-        for _ in range(DRAWS):
-            v = below(state, state.counter[N_VERTICES])
-            if state.vertex[v, TRIANGLE] >= 0 and is_irregular(state, v):
-                n, _ = fan_of(state, v, NEAR)
-                if n == 0:
-                    return -1
-                t = state.fan[NEAR, below(state, n)]
-                if uniform(state) < BESIDE:
-                    beside = state.triangle[t, 3 + below(state, 3)]
-                    t = beside if beside >= 0 else t
-                return t
-    for _ in range(DRAWS):
-        t = below(state, state.counter[N_TRIANGLES])
-        if state.triangle[t, 0] >= 0:
-            return t
-    return -1
 
 
 @inner
