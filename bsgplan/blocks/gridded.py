@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import Floats
+from .lack import merit, qualities
 from .layout import BlockGrid, BlockLayout
 from .placed import grown
-from .smooth import qualities, smooth
+from .smooth import smooth
 from .subdivide import subdivide
 
 SHARES = ((0.7, 0.3), (0.4, 0.3), (0.0, 0.02))
@@ -25,6 +26,7 @@ def unbent(grid: BlockGrid) -> BlockGrid:
     """Return the grid with sides of blocks less bent where triangles are inverted otherwise.
 
     The grid leaves the boundary there by a part of the bay that a chord cuts off, which the deviation tells.
+    Where that does not help, as at the tip of a sharp bay, the sides stay bent.
     """
     edges = grid.layout.placed.topology
     bend = np.zeros(len(edges.edges)) if grid.is_straight else np.ones(len(edges.edges))
@@ -34,8 +36,11 @@ def unbent(grid: BlockGrid) -> BlockGrid:
             break
         is_poor = np.zeros(grid.layout.n_blocks, dtype=bool)
         is_poor[grid.block[is_flat]] = True
-        bend[edges.cell_edges[grown(grid.layout.placed, is_poor, 1)]] = share
-        grid = _grid(grid.layout, bend, is_straight=False)
+        less = bend.copy()
+        less[edges.cell_edges[grown(grid.layout.placed, is_poor, 1)]] = share
+        other = _grid(grid.layout, less, is_straight=False)
+        if merit(other.placed) > merit(grid.placed):
+            grid, bend = other, less
     return grid
 
 

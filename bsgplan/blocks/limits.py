@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse.csgraph import dijkstra
 
-from ..arrays import Bools, Floats
+from ..arrays import Bools, Floats, Ints
 from ..mesh.operators import between_ends
 from .domain import Domain
 
@@ -100,7 +100,7 @@ def _to_corners(arc: Floats, is_closed: bool, total: float, stop: Bools) -> tupl
 
 def channel_limit(domain: Domain, length: Floats) -> Floats:
     """Return CHANNEL times the width of the channel at each point of the boundary that faces another."""
-    limit = np.full(domain.n_points, np.inf)
+    limit = _to_opposite_banks(domain)
     shore = np.flatnonzero(domain.is_boundary)
     mesh, wanted = domain.mesh, length * domain.scale
     away, _, nearest = dijkstra(
@@ -116,13 +116,41 @@ def channel_limit(domain: Domain, length: Floats) -> Floats:
     ends = mesh.topology.edges[between]
     a, b = nearest[ends].T
     width = away[ends].sum(axis=1) + mesh.edge_lengths[between]
-    curve, arc = domain.curve_of_point, domain.arc_of_point * domain.scale
-    total = domain.curve_lengths[curve[a]] * domain.scale
-    along = np.abs(arc[a] - arc[b])
-    along = np.where(domain.lines.is_closed[curve[a]], np.minimum(along, total - along), along)
-    faces = (curve[a] != curve[b]) | (along > WINDING * width)
-    faces &= ~(domain.lines.is_junction[a] | domain.lines.is_junction[b])
+    faces = _is_apart(domain, a, b, domain.arc_of_point[b], width / domain.scale)
     faces &= width < 2 * np.maximum(wanted[a], wanted[b])
     for side in (a, b, *ends.T):
         np.minimum.at(limit, side[faces], CHANNEL * width[faces] / domain.scale)
     return limit
+
+
+def _to_opposite_banks(domain: Domain) -> Floats:
+    """Return CHANNEL times the distance of each point of the boundary to the side opposite it, (n_points,).
+
+    In a channel one triangle wide edges run aslant from bank to bank: they are longer than it is wide.
+    """
+    limit = np.full(domain.n_points, np.inf)
+    triangle, side = np.nonzero(domain.triangles[:, 3:] < 0)
+    tip, a, b = (domain.triangles[triangle, (side + step) % 3] for step in range(3))
+    is_shore = domain.is_boundary[tip] & ~(domain.lines.is_junction[a] | domain.lines.is_junction[b])
+    tip, a, b = tip[is_shore], a[is_shore], b[is_shore]
+    bank, there = domain.points[b] - domain.points[a], domain.points[tip] - domain.points[a]
+    share = np.clip((bank * there).sum(axis=1) / (bank**2).sum(axis=1), 0.0, 1.0)
+    width = np.linalg.norm(there - share[:, None] * bank, axis=1)
+    foot = domain.arc_of_point[a] + share * np.linalg.norm(bank, axis=1)
+    faces = _is_apart(domain, tip, a, foot, width)
+    np.minimum.at(limit, tip[faces], CHANNEL * width[faces])
+    return limit
+
+
+def _is_apart(domain: Domain, a: Ints, b: Ints, arc: Floats, width: Floats) -> Bools:
+    """Return where points a and places on the curves of points b face each other over a channel, (n,).
+
+    arc is where on its curve that place is, width the distance between them. They are on different loops,
+    or far from each other along their own.
+    """
+    curve = domain.curve_of_point
+    total = domain.curve_lengths[np.maximum(curve[b], 0)]
+    along = np.abs(domain.arc_of_point[a] - arc)
+    along = np.where(domain.lines.is_closed[np.maximum(curve[b], 0)], np.minimum(along, total - along), along)
+    is_junction = domain.lines.is_junction[a] | domain.lines.is_junction[b]
+    return np.asarray(((curve[a] != curve[b]) | (along > WINDING * width)) & ~is_junction)

@@ -13,10 +13,10 @@ import numpy as np
 from ..arrays import Floats, Ints
 from .domain import Domain
 from .gridded import gridded
+from .lack import POOR, lacks, qualities
 from .layout import BlockGrid, BlockLayout
 from .outline import crossings, outline
 from .placed import PlacedMesh
-from .smooth import POOR, qualities
 from .target import limited, n_blocks
 
 ROUNDS = 3
@@ -44,7 +44,7 @@ POLISH = 10
 """Sweeps at each exponent of the polish afterwards."""
 
 GAIN = 0.01
-"""A repair has to raise the least quality by more than this."""
+"""A repair has to lower the sum of lacks by more than this."""
 
 
 def repaired(grid: BlockGrid, *, seed: int) -> BlockGrid:
@@ -102,13 +102,13 @@ def _remade(grid: BlockGrid, some: Ints, seed: int, *, n_coarsenings: int) -> Bl
 
 
 def _merit(grid: BlockGrid) -> tuple[int, float]:
-    """Return what a better grid has more of: minus inverted triangles and crossings, the least quality."""
-    n_bad, least = 0, np.inf
+    """Return what a better grid has more of: minus inverted triangles and crossings, minus the sum of lacks."""
+    n_bad, lack = 0, 0.0
     for mesh in (grid.layout.placed, grid.placed):
         quality = qualities(mesh)
         n_bad += int(np.count_nonzero(quality <= 0)) + len(crossings(mesh.points, outline(mesh)))
-        least = float(quality.min())
-    return -n_bad, least
+        lack = float(lacks(quality).sum())
+    return -n_bad, -lack
 
 
 def _lowered(layout: BlockLayout, poor: Ints) -> BlockLayout:

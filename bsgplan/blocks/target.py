@@ -34,6 +34,11 @@ FLOORS = (0.25, 0.35, 0.5)
 BOUNDARY_COST = 1.5
 """The floor rises until the boundary costs at most this factor in blocks."""
 
+STRETCH = 1.5
+"""Across channels narrower than the floor the edge is this times what fits: the floor is for bays and capes,
+which a block cuts off, but a block across a channel is as thin as that. Of that area it is STRETCH^2 times as
+long as it is wide, and its mean ratio still .74."""
+
 SMALL, SMALL_FLOOR = 8, 0.08
 """A component that wants fewer blocks than this has a floor of its own: slivers off the coast are cheap."""
 
@@ -108,7 +113,8 @@ def _limited(
         share = np.minimum(boundary_limit(domain, wanted, h, is_corner), across) / wanted
         rough = _raggedness(domain, np.maximum(share, least))
         slope = ragged if rough > RAGGEDNESS else smooth
-        length = limited(domain, wanted * np.clip(share, least, 1.0), slope)
+        length = np.minimum(wanted * np.clip(share, least, 1.0), STRETCH * across)
+        length = limited(domain, length, slope)
     return length, slope, rough
 
 

@@ -16,7 +16,7 @@ from ..arrays import Floats, Ints
 from ..blocks.cooling import Schedule, cooled, size_rms
 from ..blocks.domain import Domain
 from ..blocks.placed import PlacedMesh
-from ..blocks.smooth import qualities
+from ..blocks.lack import qualities
 from ..blocks.weights import BEND_WEIGHT
 from ..mesh import Mesh
 from ..regions.borders import corner_shares, smooth_borders

@@ -16,7 +16,7 @@ from ..blocks.anneal import POLISH
 from ..blocks.domain import Domain
 from ..blocks.kinds import FROZEN, FROZEN_SIDE
 from ..blocks.placed import PlacedMesh, grown
-from ..blocks.smooth import qualities
+from ..blocks.lack import qualities
 from ..mesh.edges import edge_keys
 from ..mesh.topology import connected_labels, topology
 

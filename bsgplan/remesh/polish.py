@@ -6,7 +6,7 @@ from ..arrays import Floats
 from ..blocks.anneal import POLISH
 from ..blocks.domain import Domain
 from ..blocks.placed import PlacedMesh
-from ..blocks.smooth import qualities
+from ..blocks.lack import qualities
 
 
 def polished(

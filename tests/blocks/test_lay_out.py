@@ -11,7 +11,7 @@ import shapely
 
 from bsgplan.arrays import Bools, Ints
 from bsgplan.blocks import BlockGrid, lay_out
-from bsgplan.blocks.smooth import qualities
+from bsgplan.blocks.lack import POOR, qualities
 from bsgplan.blocks.verify import verify
 from bsgplan.errors import InvalidOption
 from bsgplan.io import read
@@ -113,11 +113,16 @@ def test_weak_spots_get_a_valid_grid(name: str, coarse: float) -> None:
     assert qualities(grid.placed).min() > 0
 
 
-def test_blocks_that_cross_are_mended_by_themselves(meshes: Path) -> None:
-    """Fjords one triangle wide: two blocks of the first layout cross over land, the others are sound."""
-    grid = lay_out(size_field(read(meshes / "north_sea.msh").mesh), tris_per_block=16, seed=7)
+def test_fjords_one_triangle_wide_carry_blocks(meshes: Path) -> None:
+    """Fjords one triangle wide: blocks across them are as small as they are, only ears of sharp bays are poor."""
+    mesh = read(meshes / "north_sea.msh").mesh
+    grid = lay_out(size_field(mesh), tris_per_block=16, seed=7)
     assert verify(grid).is_valid
-    assert qualities(grid.placed).min() > 0
+    quality = qualities(grid.placed)
+    assert quality.min() > 0
+    assert (quality < POOR).sum() <= (mesh.qualities < POOR).sum() / 2
+    n_ears = np.count_nonzero(np.degrees(grid.layout.domain.boundary_angle) < 15)
+    assert (quality < POOR).sum() <= n_ears
 
 
 def test_the_same_seed_gives_the_same_layout() -> None:

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bsgplan.blocks import lay_out
-from bsgplan.blocks.smooth import qualities
+from bsgplan.blocks.lack import qualities
 from bsgplan.blocks.verify import verify
 from bsgplan.errors import LayoutRefused
 from bsgplan.sizing import SizeField

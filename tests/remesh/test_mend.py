@@ -10,7 +10,7 @@ from strategies import jittered, meshes
 
 from bsgplan.blocks.kinds import FROZEN, FROZEN_SIDE
 from bsgplan.blocks.placed import grown
-from bsgplan.blocks.smooth import qualities
+from bsgplan.blocks.lack import qualities
 from bsgplan.mesh import Mesh
 from bsgplan.mesh.quality import signed_areas
 from bsgplan.remesh.anneal import remeshed

@@ -15,7 +15,7 @@ import bsgplan
 from bsgplan.blocks.kinds import FROZEN
 from bsgplan.blocks.outline import outline
 from bsgplan.blocks.placed import PlacedMesh
-from bsgplan.blocks.smooth import qualities
+from bsgplan.blocks.lack import qualities
 from bsgplan.mesh import Mesh
 from bsgplan.mesh.edges import loops_of
 from bsgplan.mesh.quality import signed_areas

@@ -13,7 +13,7 @@ import bsgplan
 from bsgplan.blocks.curve_places import CurvePlaces
 from bsgplan.blocks.domain import Domain, domain_of
 from bsgplan.blocks.kinds import CORNER, INTERIOR
-from bsgplan.blocks.smooth import qualities
+from bsgplan.blocks.lack import qualities
 from bsgplan.blocks.target import Target, target_of
 from bsgplan.sizing import size_field
 

@@ -39,9 +39,9 @@ def cool(
         anneal(state, n_moves)
 
 
-def polish(state: State, n_sweeps: int) -> None:
-    """Relax every vertex n_sweeps times at each of POWERS, the topology as it is."""
-    for power in POWERS:
+def polish(state: State, n_sweeps: int, powers: Iterable[float] = POWERS) -> None:
+    """Relax every vertex n_sweeps times at each of the powers, the topology as it is."""
+    for power in powers:
         state.scalar[POWER] = power
         renew(state)
         relax_all(state, n_sweeps)
