@@ -43,9 +43,7 @@ def eased(domain: Domain, mesh: PlacedMesh, log_size: Floats) -> PlacedMesh:
     return mesh
 
 
-def _eased_once(
-    domain: Domain, mesh: PlacedMesh, log_size: Floats, powers: tuple[float, ...]
-) -> PlacedMesh:
+def _eased_once(domain: Domain, mesh: PlacedMesh, log_size: Floats, powers: tuple[float, ...]) -> PlacedMesh:
     before = qualities(mesh)
     moves = np.zeros(len(mesh.points), dtype=bool)
     moves[mesh.triangles[grown(mesh, before < POOR, RINGS)]] = True
@@ -57,7 +55,7 @@ def _eased_once(
     after = qualities(moved)
 
     def summed(values: Floats | Bools) -> Floats:
-        return np.bincount(spot_of_triangle[near], values[near], n_spots)
+        return np.bincount(spot_of_triangle[near], values[near], n_spots).astype(np.float64)
 
     inverted = summed(after <= 0) - summed(before <= 0)
     is_better = (inverted < 0) | ((inverted == 0) & (summed(lacks(after)) < summed(lacks(before))))

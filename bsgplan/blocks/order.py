@@ -38,7 +38,7 @@ def hilbert(points: Floats) -> Ints:
 
 
 def in_order(mesh: PlacedMesh) -> PlacedMesh:
-    """Return the mesh with its rows along the curve; frozen vertices first, as they were: grafts count them."""
+    """Return the mesh with its rows along the curve; frozen vertices first and as they were for grafts."""
     order = np.argsort(np.where(mesh.kinds == FROZEN, -1, hilbert(mesh.points)), kind="stable")
     new_index = np.empty_like(order)
     new_index[order] = np.arange(len(order))

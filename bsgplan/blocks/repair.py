@@ -102,7 +102,7 @@ def _remade(grid: BlockGrid, some: Ints, seed: int, *, n_coarsenings: int) -> Bl
 
 
 def _merit(grid: BlockGrid) -> tuple[int, float]:
-    """Return what a better grid has more of: minus inverted triangles and crossings, minus the sum of lacks."""
+    """Return what a better grid has more of: minus inverted triangles and crossings, minus lacks."""
     n_bad, lack = 0, 0.0
     for mesh in (grid.layout.placed, grid.placed):
         quality = qualities(mesh)

@@ -15,8 +15,8 @@ import numpy as np
 from ..arrays import Floats, Ints
 from ..blocks.cooling import Schedule, cooled, size_rms
 from ..blocks.domain import Domain
-from ..blocks.placed import PlacedMesh
 from ..blocks.lack import qualities
+from ..blocks.placed import PlacedMesh
 from ..blocks.weights import BEND_WEIGHT
 from ..mesh import Mesh
 from ..regions.borders import corner_shares, smooth_borders

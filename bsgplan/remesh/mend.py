@@ -15,8 +15,8 @@ from ..arrays import Bools, Floats, Ints
 from ..blocks.anneal import POLISH
 from ..blocks.domain import Domain
 from ..blocks.kinds import FROZEN, FROZEN_SIDE
-from ..blocks.placed import PlacedMesh, grown
 from ..blocks.lack import qualities
+from ..blocks.placed import PlacedMesh, grown
 from ..mesh.edges import edge_keys
 from ..mesh.topology import connected_labels, topology
 

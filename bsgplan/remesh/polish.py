@@ -5,8 +5,8 @@ from __future__ import annotations
 from ..arrays import Floats
 from ..blocks.anneal import POLISH
 from ..blocks.domain import Domain
-from ..blocks.placed import PlacedMesh
 from ..blocks.lack import qualities
+from ..blocks.placed import PlacedMesh
 
 
 def polished(

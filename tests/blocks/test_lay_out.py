@@ -114,7 +114,7 @@ def test_weak_spots_get_a_valid_grid(name: str, coarse: float) -> None:
 
 
 def test_fjords_one_triangle_wide_carry_blocks(meshes: Path) -> None:
-    """Fjords one triangle wide: blocks across them are as small as they are, only ears of sharp bays are poor."""
+    """Blocks across them are as small as they are wide; only the ears of sharp bays are poor."""
     mesh = read(meshes / "north_sea.msh").mesh
     grid = lay_out(size_field(mesh), tris_per_block=16, seed=7)
     assert verify(grid).is_valid

@@ -95,7 +95,7 @@ def test_sides_stay_bent_where_straight_ones_do_not_help() -> None:
 
 
 def strip(step: float, *, width: float) -> Mesh:
-    """Return a channel one triangle wide: banks with a point every 2 step, those of one between the other's."""
+    """Return a channel one triangle wide, a point every 2 step on its banks, by turns."""
     n = 24
     lower = np.column_stack([2 * step * np.arange(n), np.zeros(n)])
     upper = np.column_stack([2 * step * np.arange(n) + step, np.full(n, width)])

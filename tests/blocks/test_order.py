@@ -38,7 +38,9 @@ def test_the_mesh_stays_what_it_is() -> None:
     mesh = shuffled()
     other = in_order(mesh)
     assert told(other) == told(mesh)
-    assert np.abs(np.diff(other.triangles, axis=1)).mean() < np.abs(np.diff(mesh.triangles, axis=1)).mean() / 2
+    assert (
+        np.abs(np.diff(other.triangles, axis=1)).mean() < np.abs(np.diff(mesh.triangles, axis=1)).mean() / 2
+    )
 
 
 def test_frozen_vertices_keep_their_order() -> None:
@@ -65,6 +67,12 @@ def shuffled() -> PlacedMesh:
 
 def told(mesh: PlacedMesh) -> list[tuple[object, ...]]:
     """Each triangle by what is true of it and its corners, numbers aside."""
-    columns = [mesh.points, mesh.kinds[:, None], mesh.curves[:, None], mesh.arcs[:, None], mesh.goals[:, None]]
+    columns = [
+        mesh.points,
+        mesh.kinds[:, None],
+        mesh.curves[:, None],
+        mesh.arcs[:, None],
+        mesh.goals[:, None],
+    ]
     corners = np.column_stack(columns)[mesh.triangles].reshape(len(mesh.triangles), -1)
     return sorted(map(tuple, np.column_stack([corners, mesh.codes]).tolist()))

@@ -21,8 +21,8 @@ from bsgplan.blocks.kernel.state import BEND, POWER, SIZE, State
 from bsgplan.blocks.kernel.sweeps import relax_all, renew
 from bsgplan.blocks.kernel.walk import locate
 from bsgplan.blocks.kinds import CORNER, INTERIOR, SLIDING
-from bsgplan.blocks.placed import place
 from bsgplan.blocks.lack import POOR, merit, qualities
+from bsgplan.blocks.placed import place
 from bsgplan.blocks.smooth import smooth
 from bsgplan.mesh import Mesh
 from bsgplan.mesh.irregularity import fitted_boundary_irregularity

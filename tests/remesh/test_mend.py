@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from strategies import jittered, meshes
 
 from bsgplan.blocks.kinds import FROZEN, FROZEN_SIDE
-from bsgplan.blocks.placed import grown
 from bsgplan.blocks.lack import qualities
+from bsgplan.blocks.placed import grown
 from bsgplan.mesh import Mesh
 from bsgplan.mesh.quality import signed_areas
 from bsgplan.remesh.anneal import remeshed

@@ -13,9 +13,9 @@ from strategies import meshes as random_meshes
 
 import bsgplan
 from bsgplan.blocks.kinds import FROZEN
+from bsgplan.blocks.lack import qualities
 from bsgplan.blocks.outline import outline
 from bsgplan.blocks.placed import PlacedMesh
-from bsgplan.blocks.lack import qualities
 from bsgplan.mesh import Mesh
 from bsgplan.mesh.edges import loops_of
 from bsgplan.mesh.quality import signed_areas

@@ -60,7 +60,7 @@ HOPELESS = 1.5
 """A move whose valences alone cost so much over the acceptance is given up before any relaxation."""
 
 VERTICES = 4.0
-"""A pass over the mesh makes one move for so many vertices: few enough that all are where the pass found them."""
+"""A pass over the mesh makes one move for so many vertices, most of which are then where it found them."""
 
 MOST_THERE = 8.0
 """The most moves that a pass begins at one irregular vertex: where few are left the others move anywhere."""
