@@ -84,14 +84,17 @@ class Topology:
     @cached_property
     def across(self) -> Ints:
         """Cell across each edge of each cell, (n_cells, n_corners); -1 where there is none."""
-        return (self._opposite_side // self.cells.shape[1]).reshape(self.cells.shape)
+        return self._across(self.edge_cells).reshape(self.cells.shape)
 
-    @cached_property
-    def _opposite_side(self) -> Ints:
-        """The other side along the edge of each side, (n_cells * n_corners,); -1 at the boundary."""
+    def _across(self, pairs: Ints) -> Ints:
+        """Return what lies on the other side of each side, (n_cells * n_corners,); -1 at the boundary.
+
+        pairs are those of the two sides of each edge, (n_edges, 2).
+        """
         result = np.full(self.cells.size, -1, dtype=np.int64)
-        first, second = self.edge_sides[np.flatnonzero(~self.is_boundary_edge)].T
-        result[first], result[second] = second, first
+        inner = np.flatnonzero(~self.is_boundary_edge)
+        sides, pairs = self.edge_sides.take(inner, axis=0), pairs.take(inner, axis=0)
+        result[sides] = pairs[:, ::-1]
         return result
 
     @cached_property
@@ -128,11 +131,12 @@ class Topology:
         n_corners, vertex = self.cells.shape[1], self.cells.ravel()
         is_used = self.n_cells_at > 0
         fan = (np.cumsum(is_used) - 1)[vertex]
-        corners = np.flatnonzero((self._n_cells_in_a_fan() != self.n_cells_at)[vertex])
+        across = self._across(self.edge_sides)
+        corners = np.flatnonzero((self._n_cells_in_a_fan(across) != self.n_cells_at)[vertex])
         if len(corners):  # of pinches
             number = np.full(len(vertex), -1)
             number[corners] = np.arange(len(corners))
-            links = np.column_stack([np.repeat(corners, 2), self._turned(corners).ravel()])
+            links = np.column_stack([np.repeat(corners, 2), self._turned(corners, across).ravel()])
             own = connected_labels(number[links[links[:, 1] >= 0]], len(corners))
             first = np.unique(own, return_index=True)[1]  # a corner of each fan ..
             is_other = np.ones(len(first), dtype=bool)
@@ -141,12 +145,13 @@ class Topology:
             fan[corners] = np.where(is_other, further, fan[corners[first]])[own]
         return fan.reshape(-1, n_corners)
 
-    def _n_cells_in_a_fan(self) -> Ints:
+    def _n_cells_in_a_fan(self, across: Ints) -> Ints:
         """Return the cells in one fan of each vertex, (n_points,); 0 where there is none or sides run alike.
 
-        Turns around all vertices at once, from the first corner of an open fan, from any of a closed one.
+        across is the other side of each side. Turns around all vertices at once, from the first corner of an
+        open fan, from any of a closed one.
         """
-        vertex, across = self.cells.ravel(), self._opposite_side
+        vertex = self.cells.ravel()
         after = np.roll(np.arange(self.cells.size).reshape(self.cells.shape), -1, axis=1).ravel()
         ahead = np.where(across >= 0, after[across], -1)
         start = np.full(self.n_points, -1)
@@ -165,16 +170,16 @@ class Topology:
             turning, first, corner = turning.take(goes_on), first.take(goes_on), corner.take(goes_on)
         return result
 
-    def _turned(self, corner: Ints) -> Ints:
+    def _turned(self, corner: Ints, across: Ints) -> Ints:
         """Return the corners of the same vertex across the two sides at each corner, (n, 2); -1 for none."""
         n_corners, vertex = self.cells.shape[1], self.cells.ravel()
         result = np.empty((len(corner), 2), dtype=np.int64)
         before = corner + np.where(corner % n_corners == 0, n_corners - 1, -1)
         for k, side in enumerate((corner, before)):
-            across = self._opposite_side[side]
-            is_start = vertex[across] == vertex[corner]  # else the vertex is the end of the side
-            there = np.where(is_start, across, next_corner(across, n_corners))
-            result[:, k] = np.where(across >= 0, there, -1)
+            other = across[side]
+            is_start = vertex[other] == vertex[corner]  # else the vertex is the end of the side
+            there = np.where(is_start, other, next_corner(other, n_corners))
+            result[:, k] = np.where(other >= 0, there, -1)
         return result
 
     @cached_property
