@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
@@ -66,6 +67,25 @@ def by_row(
     entries.has_canonical_format = True  # neither sorted further nor summed
     table = entries.tocsr()
     return table.indices, table.data, table.indptr
+
+
+def short_type(largest: int) -> type[np.int32 | np.int64]:
+    """Return the shortest type of whole numbers up to the largest that lists of links are made of.
+
+    >>> short_type(10**9).__name__, short_type(10**10).__name__
+    ('int32', 'int64')
+    """
+    return np.int32 if largest < np.iinfo(np.int32).max else np.int64
+
+
+def joined(parts: Sequence[Wholes], largest: int) -> Wholes:
+    """Return whole numbers up to the largest one part after the other, of the shortest type.
+
+    >>> joined([np.array([1, 2]), np.array([3])], 3).dtype.name
+    'int32'
+    """
+    result: Wholes = np.concatenate(parts, dtype=short_type(largest), casting="same_kind")
+    return result
 
 
 def sums_by(index: Ints, values: Floats, n: int) -> Floats:

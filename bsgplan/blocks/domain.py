@@ -17,6 +17,7 @@ from ..errors import InvalidMesh
 from ..mesh import Mesh
 from ..mesh.quality import angles
 from ..mesh.topology import next_corner, topology
+from ..sizing.limits import Links
 from .curves import Curves, find_curves
 
 
@@ -54,6 +55,11 @@ class Domain:
     def triangles(self) -> Ints:
         """Three corners, counter-clockwise, and the neighbours opposite them (-1 none), (n_triangles, 6)."""
         return np.column_stack([self.mesh.triangles, np.roll(self.mesh.topology.across, -1, axis=1)])
+
+    @cached_property
+    def links(self) -> Links:
+        """The links of the triangulation, over which edge lengths are limited."""
+        return Links.of(self.mesh)
 
     @cached_property
     def areas(self) -> Floats:

@@ -11,7 +11,6 @@ import numpy as np
 from ..arrays import Bools, Floats, frozen_floats, sums_by
 from ..sizing import SizeField
 from ..sizing.field import covering
-from ..sizing.limits import limit_gradient
 from .corners import find_corners
 from .domain import Domain
 from .limits import boundary_limit, channel_limit
@@ -83,7 +82,9 @@ def target_of(domain: Domain, size: SizeField, side: int, *, gradient_limit: flo
 
     @cache
     def n_limited(slope: float) -> float:
-        return n_blocks(domain, limited(domain, wanted, slope))
+        if domain.mesh is not size.mesh:
+            return n_blocks(domain, limited(domain, wanted, slope))
+        return n_blocks(domain, size.limited(side, slope, domain.links) / domain.scale)
 
     smooth = gradient_limit or _slope(plain, n_limited)
     across = channel_limit(domain, wanted)
@@ -121,9 +122,9 @@ def _limited(
 def limited(domain: Domain, length: Floats, slope: float) -> Floats:
     """Return the largest edge lengths below those given whose gradient nowhere exceeds slope, (n_points,).
 
-    Both in the domain's unit; see `limit_gradient`.
+    Both in the domain's unit; see `Links`.
     """
-    return limit_gradient(domain.mesh, length * domain.scale, slope) / domain.scale
+    return domain.links.limited(length * domain.scale, slope) / domain.scale
 
 
 def n_blocks(domain: Domain, length: Floats) -> float:

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from ..arrays import Bools, Ints, Wholes, by_row
+from ..arrays import Bools, Ints, Wholes, by_row, joined, short_type
 from ..errors import InvalidMesh
 
 
@@ -101,8 +101,9 @@ class Topology:
     def links(self) -> tuple[Wholes, Wholes, Wholes]:
         """The vertices linked to each by an edge, these edges, and where those of each begin."""
         low, high = self.edges.T
-        edges: Wholes = np.tile(np.arange(len(low), dtype=_small(self.edges.size)), 2)
-        return by_row(np.concatenate([high, low]), np.concatenate([low, high]), edges, self.n_points)
+        edges: Wholes = np.tile(np.arange(len(low), dtype=short_type(self.edges.size)), 2)
+        rows, columns = joined([high, low], self.n_points), joined([low, high], self.n_points)
+        return by_row(rows, columns, edges, self.n_points)
 
     @cached_property
     def cells_around(self) -> tuple[Wholes, Wholes]:
@@ -249,7 +250,7 @@ def _by_ends(cells: Ints, n_points: int) -> tuple[Wholes, Wholes, Wholes]:
 
     (n_cells * n_corners,) each; short integers where the mesh allows.
     """
-    start = cells.astype(_small(max(cells.size, n_points)))
+    start = cells.astype(short_type(max(cells.size, n_points)))
     end = np.roll(start, -1, axis=1)
     low, high = np.minimum(start, end).ravel(), np.maximum(start, end).ravel()
     del start, end
@@ -262,11 +263,6 @@ def _sorted_places(values: Wholes, n: int) -> Wholes:
     """Return the stable order of integers 0 .. n - 1; linear in time."""
     place = np.arange(len(values), dtype=values.dtype)
     return by_row(values, place, np.empty(len(values), dtype=np.int8), n)[0]
-
-
-def _small(largest: int) -> type[np.int32 | np.int64]:
-    """Return the shortest type of whole numbers up to the largest."""
-    return np.int32 if largest < np.iinfo(np.int32).max else np.int64
 
 
 def connected_labels(links: Ints, n_nodes: int) -> Ints:

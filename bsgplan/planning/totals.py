@@ -13,7 +13,7 @@ import numpy as np
 from ..arrays import Floats
 from ..mesh.operators import corner_means
 from ..regions import Regions
-from ..sizing.limits import capped_triangles, gradient_limited_blocks
+from ..sizing.counts import capped_triangles, gradient_limited_blocks
 
 GRADIENT_LIMIT = 0.6
 """Default bound on |grad H| of the block size H: across a block its size may change by 60 % of its edge."""

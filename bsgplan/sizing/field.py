@@ -17,6 +17,7 @@ from ..mesh import Mesh
 from ..mesh.operators import corner_means, gradient, to_vertices
 from .charge import edge_fluxes
 from .diffusion import Diffusion, once
+from .limits import Links
 
 EQUILATERAL = np.sqrt(3) / 4
 """Area of an equilateral triangle of edge 1."""
@@ -98,6 +99,20 @@ class SizeField:
     def diffusion(self) -> Diffusion:
         """Diffusion over one local size."""
         return Diffusion.over(self.mesh, self.triangle_h)
+
+    def limited(self, side: float, slope: float, links: Links | None = None) -> Floats:
+        """Return side times h limited in gradient to slope, (n_points,), length.
+
+        Known from the first time on; links are those of the mesh, from who has them.
+        """
+        key = (float(side), float(slope))
+        if key not in self._limited:
+            self._limited[key] = frozen_floats((links or Links.of(self.mesh)).limited(side * self.h, slope))
+        return self._limited[key]
+
+    @cached_property
+    def _limited(self) -> dict[tuple[float, float], Floats]:
+        return {}
 
     @cached_property
     def fluxes(self) -> Floats:

@@ -31,18 +31,19 @@ def gradient_jumps(mesh: Mesh) -> csr_array:
     topology, corners = mesh.topology, mesh.triangles.ravel()
     inner = np.flatnonzero(~topology.is_boundary_edge)
     n, ends = len(inner), topology.edges.take(inner, axis=0)
-    cotangent, damping = cotangents(mesh), np.minimum(mesh.qualities / SLIVER, 1.0)
+    cotangent = cotangents(mesh)
     of_start, of_end = cotangent.ravel(), np.roll(cotangent, -1, axis=1).ravel()
-    low, high, opposite = np.zeros(n), np.zeros(n), []
-    least = np.minimum(*(damping[cell] for cell in topology.neighbours.T))
-    for side in topology.edge_sides.take(inner, axis=0).T:
+    values = np.zeros((n, 4))
+    low, high, *opposite = values.T
+    for side, beyond in zip(topology.edge_sides.take(inner, axis=0).T, opposite, strict=True):
         at_start, at_end = of_start[side], of_end[side]
         is_along = corners[side] == ends[:, 0]
         low -= np.where(is_along, at_end, at_start)
         high -= np.where(is_along, at_start, at_end)
-        opposite.append(at_start + at_end)
+        np.add(at_start, at_end, out=beyond)
+    damping = np.minimum(mesh.qualities / SLIVER, 1.0)
+    values *= np.minimum(*(damping[cell] for cell in topology.neighbours.T))[:, None]
     columns = np.concatenate([ends, topology.tips], axis=1, dtype=np.int32, casting="same_kind")
-    values = np.column_stack([least * value for value in (low, high, *opposite)])
     start = np.arange(0, 4 * n + 1, 4, dtype=np.int32)
     return csr_array((values.ravel(), columns.ravel(), start), shape=(n, mesh.n_points))
 

@@ -12,7 +12,8 @@ from strategies import disc, hilly, jittered
 from bsgplan.arrays import Floats
 from bsgplan.mesh import Mesh
 from bsgplan.sizing import SizeField
-from bsgplan.sizing.limits import capped_triangles, gradient_limited_blocks, limit_gradient
+from bsgplan.sizing.counts import capped_triangles, gradient_limited_blocks
+from bsgplan.sizing.limits import limit_gradient
 
 SLOPE = st.sampled_from([0.05, 0.2, 0.6, 1.5])
 
