@@ -16,10 +16,14 @@ from .cooling import Schedule, cooled
 from .domain import Domain
 from .placed import PlacedMesh
 from .target import n_blocks
-from .weights import BEND_WEIGHT, SIZE_WEIGHT
+from .weights import BEND_WEIGHT
+
+USUAL_SIZE_WEIGHT = 0.4
+"""Weight of sizes at the default tolerance: blocks with credit follow sizes more closely at the same weight."""
 
 SCHEDULE = Schedule(
-    hot=0.4, cold=0.03, moves=8, steered=8, gain=0.4, most_shift=0.2, most_size_weight=SIZE_WEIGHT
+    hot=0.4, cold=0.03, moves=8, steered=8, gain=0.4, most_shift=0.2, most_size_weight=USUAL_SIZE_WEIGHT,
+    credit=1.0,
 )  # fmt: skip
 """How layouts are annealed at the default tolerance of sizes."""
 
@@ -85,7 +89,7 @@ def most_size_weight(size_tolerance: float) -> float:
     An rms of log(edge / wanted) of log(size_tolerance) then costs as much at every tolerance.
 
     >>> most_size_weight(SIZE_TOLERANCE), most_size_weight(1.0)
-    (0.5, 3.0)
+    (0.4, 3.0)
     """
     if size_tolerance <= 1.0:
         return MOST_SIZE_WEIGHT

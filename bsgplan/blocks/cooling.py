@@ -48,6 +48,10 @@ class Schedule:
     """The most that the weight of sizes is raised to."""
     first_shift: float = 0.0
     """The shift to begin with."""
+    credit: float = 0.0
+    """Share of the mean energy of a triangle, that of vertices included, that each is credited with.
+
+    Every triangle costs something, so without credit few large ones cost less than those that are wanted."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,7 +88,7 @@ def cooled(
     sweeps, no more.
     """
     from .kernel.exchange import load, unload
-    from .kernel.schedule import cool, falling
+    from .kernel.schedule import cool, falling, give_credit
     from .kernel.sweeps import relax_all
 
     first_weight = min(SIZE_WEIGHT, schedule.most_size_weight)
@@ -95,6 +99,7 @@ def cooled(
             domain, in_order(mesh), log_size,
             seed=seed + stage, size_weight=weight, bend_weight=bend_weight, offset=offset,
         )  # fmt: skip
+        give_credit(state, schedule.credit)
         n_moves = schedule.moves * len(mesh.triangles)
         cool(state, part, n_moves, is_stopped=is_stopped)
         if is_stopped():

@@ -6,11 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .kinds import CORNER
+from .kinds import CORNER, HALF_EDGE
 from .layout import BlockLayout
-
-HALF_EDGE = 0.51
-"""A corner takes any whole number of edges no farther from its goal than this: 90 degrees 2 or 3."""
 
 
 @dataclass(frozen=True)

@@ -8,3 +8,6 @@ its goal exact."""
 
 NO_CURVE, FROZEN_SIDE = -1, -2
 """Codes of sides on no curve: free; never split, collapsed or flipped, both its ends being FROZEN."""
+
+HALF_EDGE = 0.51
+"""A fixed vertex takes any whole number of edges no farther from its goal than this: 90 degrees 2 or 3."""

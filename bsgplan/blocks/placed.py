@@ -10,7 +10,7 @@ import numpy as np
 from ..arrays import Bools, Floats, Ints
 from ..mesh.topology import Topology, topology
 from .domain import Domain
-from .kinds import CORNER, INTERIOR, JUNCTION, SLIDING
+from .kinds import CORNER, HALF_EDGE, INTERIOR, JUNCTION, SLIDING
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +51,7 @@ class PlacedMesh:
     def is_irregular(self) -> Bools:
         """Vertices whose valence is off the goal, at fixed ones by more than half an edge, (n_points,)."""
         off = np.abs(self.topology.valence - self.goals)
-        return np.asarray(off > np.where(self.kinds >= CORNER, 0.51, 0.0))
+        return np.asarray(off > np.where(self.kinds >= CORNER, HALF_EDGE, 0.0))
 
 
 def place(domain: Domain, is_corner: Bools, turning: Floats) -> PlacedMesh:

@@ -9,17 +9,30 @@ from functools import cache
 import numpy as np
 
 from ..arrays import Bools, Floats, frozen_floats, sums_by
+from ..mesh.operators import corner_means
 from ..sizing import SizeField
+from ..sizing.diffusion import Diffusion, gently
 from ..sizing.field import covering
 from .corners import find_corners
 from .domain import Domain
 from .limits import boundary_limit, channel_limit
 
-SLOPES = (0.6, 0.7, 0.8, 0.9, 1.0)
-"""Bounds on the gradient of the block edge: the first on smooth domains, the last on ragged coasts."""
+SLOPES = (0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.5, 2.0)
+"""Bounds on the gradient of the block edge on smooth domains."""
 
 COST = 1.03
 """On smooth domains the bound is loosened until it costs at most this factor in blocks."""
+
+RAGGED_SLOPE = 1.0
+"""The bound on ragged coasts."""
+
+SPREAD = (1 + np.sqrt(2.0)) * 5 / 144
+"""Square of the length over which densities are smoothed gently, in wanted edges a. Sizes are looked up at the
+vertices of blocks, each of which stands for its hexagon, of variance 5 a^2 / 72 along any line; diffusion over
+l spreads a point by 2 l^2, and a gentle one halves the same waves at a length sqrt(1 + sqrt(2)) times as large."""
+
+LEAST_DENSITY = 0.25
+"""Smoothing leaves at least this share of the density that was: so sharp a bend could make it negative."""
 
 RAGGEDNESS = 0.04
 """A domain is ragged where more than this share of its boundary cannot carry RAGGED_EDGE of s h."""
@@ -52,7 +65,7 @@ class Target:
     side: int
     """Triangles along one side of a block: s."""
     length: Floats = field(repr=False)
-    """Wanted block edge, (n_points,), length: at most s h."""
+    """Wanted block edge, (n_points,), length: at most s h as blocks see it."""
     is_corner: Bools = field(repr=False)
     """Points of the domain where a block must have a corner, (n_points,)."""
     turning: Floats = field(repr=False)
@@ -72,13 +85,13 @@ class Target:
 def target_of(domain: Domain, size: SizeField, side: int, *, gradient_limit: float | None = None) -> Target:
     """Return the wanted block edges: side times the size field, limited in gradient and at the boundary.
 
-    gradient_limit None takes the loosest of SLOPES where the domain is ragged, else the tightest that costs
-    at most COST in blocks.
+    Blocks see the field smoothed over themselves. gradient_limit None takes RAGGED_SLOPE where the domain is
+    ragged, else the tightest of SLOPES that costs at most COST in blocks.
     """
     h = size.h[domain.source] / domain.scale
     wanted = side * h
-    length = wanted
     plain, is_small = n_blocks(domain, wanted), _is_small(domain, wanted)
+    wanted = length = _seen(domain, wanted)
 
     @cache
     def n_limited(slope: float) -> float:
@@ -91,7 +104,7 @@ def target_of(domain: Domain, size: SizeField, side: int, *, gradient_limit: flo
     for floor in FLOORS:
         least = np.where(is_small, SMALL_FLOOR, max(floor, 1 / side))  # no edge shorter than the input's
         length, slope, rough = _limited(
-            domain, wanted, h, least, across, smooth, gradient_limit or SLOPES[-1]
+            domain, wanted, h, least, across, smooth, gradient_limit or RAGGED_SLOPE
         )
         if n_blocks(domain, length) <= BOUNDARY_COST * plain:
             break
@@ -125,6 +138,14 @@ def limited(domain: Domain, length: Floats, slope: float) -> Floats:
     Both in the domain's unit; see `Links`.
     """
     return domain.links.limited(length * domain.scale, slope) / domain.scale
+
+
+def _seen(domain: Domain, length: Floats) -> Floats:
+    """Return the block edges that blocks see: those of the density, 1 / length^2, smoothed over a block."""
+    mean = np.exp(corner_means(domain.mesh.triangles, np.log(length)))
+    density = length**-2
+    seen = Diffusion.over(domain.mesh, domain.scale * mean).filtered(density, gently, float(np.sqrt(SPREAD)))
+    return np.asarray(np.maximum(seen, LEAST_DENSITY * density) ** -0.5)
 
 
 def n_blocks(domain: Domain, length: Floats) -> float:

@@ -56,7 +56,7 @@ def layout(
     size_tolerance
         How far edges may stray: rms of log size at most ln of this.
     gradient_limit
-        Bound on the gradient of the block size; default: by how ragged the boundary is.
+        Bound on the gradient of the block size; default: by how ragged the boundary is, and by what it costs.
     seed
         Another number gives another layout, the same one the same.
     straight

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..arrays import Floats, Ints, sums_by
 from ..blocks import BlockGrid
+from ..blocks.kinds import HALF_EDGE
 from ..blocks.layout import interpolated
 from ..blocks.placed import PlacedMesh
 from ..io import MeshFile
@@ -184,5 +185,5 @@ def _irregularity(placed: PlacedMesh) -> Ints:
     """
     count = sums_by(placed.triangles, np.ones(placed.triangles.shape), len(placed.points))
     off = placed.topology.valence - placed.goals
-    rounded = np.sign(off) * np.ceil(np.abs(off) - 0.51)
+    rounded = np.sign(off) * np.ceil(np.abs(off) - HALF_EDGE)
     return np.where(placed.is_irregular & (count > 0), rounded, 0).astype(np.int64)

@@ -14,6 +14,10 @@ from ..arrays import Floats, Ints
 from ..errors import InvalidMesh
 from .topology import Topology
 
+HALFWAY = 1e-6
+"""A boundary angle so near to halfway between two numbers of triangles, in 60 degrees, fits both: whether a
+right angle has one triangle or two is not for the rounding of its coordinates to judge."""
+
 OPTIMAL_VALENCE = {3: (6, 4), 4: (4, 3)}
 """Optimal valence of an interior and of a boundary vertex, by the number of corners (Definition 1)."""
 
@@ -88,8 +92,11 @@ def genus(topology: Topology) -> Ints:
 def fitted_boundary_irregularity(topology: Topology, corner_angles: Floats) -> Ints:
     """Return triangles minus max(1, round(angle / 60 degrees)) of each boundary vertex, (n_points,).
 
-    Fair to corners; 0 at interior vertices. corner_angles as `quality.angles` gives them.
+    Fair to corners; 0 at interior vertices. An angle halfway fits both numbers. corner_angles as
+    `quality.angles` gives them.
     """
     angle = np.bincount(topology.cells.ravel(), weights=corner_angles.ravel(), minlength=topology.n_points)
-    fitting = np.maximum(1, np.rint(angle / (np.pi / 3)).astype(np.int64))
+    share = angle / (np.pi / 3)
+    least, most = np.ceil(share - 0.5 - HALFWAY), np.floor(share + 0.5 + HALFWAY)
+    fitting = np.clip(topology.n_cells_at, np.maximum(least, 1), np.maximum(most, 1)).astype(np.int64)
     return np.where(topology.is_boundary, topology.n_cells_at - fitting, 0)

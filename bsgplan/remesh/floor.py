@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import sums_by
-from ..blocks.floor import HALF_EDGE
+from ..blocks.kinds import HALF_EDGE
 from ..mesh import Mesh
 from ..mesh.quality import angles
 

@@ -18,6 +18,7 @@ from bsgplan.blocks.kernel import relax as relaxations
 from bsgplan.blocks.kernel import split as splits
 from bsgplan.blocks.kernel.anneal import anneal
 from bsgplan.blocks.kernel.exchange import load, unload
+from bsgplan.blocks.kernel.schedule import give_credit
 from bsgplan.blocks.kernel.state import (
     ARC,
     DELTA,
@@ -191,5 +192,6 @@ def _state(name: str, seed: int) -> State:
     log_size: Floats = np.log(0.12) + 0.5 * domain.points[:, 0]
     is_corner, turning = find_corners(domain, np.exp(log_size))
     state = load(domain, place(domain, is_corner, turning), log_size, room=3.0, seed=seed)
+    give_credit(state, 0.5)
     assert (state.value[:, ARC] >= 0)[: len(domain.points)].all()
     return state

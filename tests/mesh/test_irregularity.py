@@ -61,3 +61,20 @@ def test_a_fan_of_fitting_triangles_is_regular_on_its_boundary(n, expected):
         assert fitted.tolist() == [0, 1, 1, 1]
     else:
         assert np.count_nonzero(fitted) == expected
+
+
+@pytest.mark.parametrize("shift", [-1e-9, 0.0, 1e-9])
+def test_a_right_angle_fits_one_triangle_and_two(shift):
+    """90 degrees lie halfway between one and two; rounding of the coordinates has no say."""
+    points = np.array([[0.0, 0.0], [1.0, 0.0], [1.0 + shift, 1.0 - shift], [0.0, 1.0]])
+    mesh = Mesh(points, np.array([[0, 1, 2], [0, 2, 3]]))
+    assert mesh.topology.n_cells_at.tolist() == [2, 1, 2, 1]
+    assert not fitted_boundary_irregularity(mesh.topology, angles(mesh.corner_edge_lengths)).any()
+
+
+def test_an_angle_past_the_middle_fits_one_number_only():
+    """100 degrees want two triangles."""
+    tip = np.array([np.cos(np.radians(100)), np.sin(np.radians(100))])
+    mesh = Mesh(np.array([[0.0, 0.0], [1.0, 0.0], tip]), np.array([[0, 1, 2]]))
+    fitted = fitted_boundary_irregularity(mesh.topology, angles(mesh.corner_edge_lengths))
+    assert fitted.tolist() == [-1, 0, 0]

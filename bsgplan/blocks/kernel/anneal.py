@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..kinds import CORNER, NO_CURVE
+from ..kinds import CORNER, HALF_EDGE, NO_CURVE
 from .chance import below, uniform
 from .collapse import collapse, kept_end
 from .compiled import compiled, inner, whole
@@ -154,7 +154,7 @@ def _moved(state: State, v: int, beside: float) -> int:
 def is_irregular(state: State, v: int) -> bool:
     """Return True where the valence of a vertex is off its goal, at a corner by more than half an edge."""
     off = abs(state.vertex[v, VALENCE] - state.value[v, GOAL])
-    return off > (0.51 if state.vertex[v, KIND] >= CORNER else 0.0)
+    return off > (HALF_EDGE if state.vertex[v, KIND] >= CORNER else 0.0)
 
 
 @inner

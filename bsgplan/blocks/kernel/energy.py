@@ -1,22 +1,23 @@
 """The energy: quality and size of triangles, irregularity of vertices.
 
-Of a triangle: wq ((1/q)^p - 1) / p + ws log(r)^2 + wb bend, q the mean ratio, r its area over that wanted,
-I = (sqrt(3)/2) 3 / (w1 + w2 + w3) being twice the wanted area: the harmonic mean of h^2 at its corners. The
-ratio enters through chi(r) > 0, so that inverted triangles have a finite energy and relax. Of a vertex:
-wv phi(valence - goal). Each is written to its row, its change added to DELTA.
+Of a triangle: wq ((1/q)^p - 1) / p + ws log(r)^2 + wb bend - credit, q the mean ratio, r its area over that
+wanted, I = (sqrt(3)/2) 3 / (w1 + w2 + w3) being twice the wanted area: the harmonic mean of h^2 at its
+corners. The ratio enters through chi(r) > 0, so that inverted triangles have a finite energy and relax. Of a
+vertex: wv phi(valence - goal). Each is written to its row, its change added to DELTA.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from ..kinds import CORNER, JUNCTION
+from ..kinds import CORNER, HALF_EDGE, JUNCTION
 from .bend import bend
 from .compiled import inner
 from .journal import keep_triangle, keep_vertex
 from .shape import SHAPE, soft
 from .state import (
     BEND,
+    CREDIT,
     DELTA,
     DELTA_VALENCES,
     ENERGY,
@@ -58,7 +59,7 @@ def triangle_energy(state: State, t: int) -> float:
     scalar = state.scalar
     power = scalar[POWER]
     shape = inverse if power == 1.0 else inverse**power
-    energy = scalar[QUALITY] * (shape - 1.0) / power + scalar[SIZE] * np.log(chi) ** 2
+    energy = scalar[QUALITY] * (shape - 1.0) / power + scalar[SIZE] * np.log(chi) ** 2 - scalar[CREDIT]
     if scalar[BEND] > 0.0:
         for side in range(3):
             if state.triangle[t, 6 + side] >= 0:
@@ -68,11 +69,20 @@ def triangle_energy(state: State, t: int) -> float:
 
 @inner
 def valence_energy(state: State, v: int) -> float:
-    """Return the energy of a vertex's valence; corner and junction pay beyond half an edge only."""
-    off = abs(state.vertex[v, VALENCE] - state.value[v, GOAL])
+    """Return the energy of a vertex's valence."""
+    return state.scalar[VALENCES] * cost_of_valence(off_goal(state, v, state.vertex[v, VALENCE]))
+
+
+@inner
+def off_goal(state: State, v: int, valence: int) -> float:
+    """Return how many edges off its goal a vertex would be: at corner and junction off the fitting numbers.
+
+    The goal there is no whole number; all within HALF_EDGE of it fit.
+    """
+    off = abs(valence - state.value[v, GOAL])
     if CORNER <= state.vertex[v, KIND] <= JUNCTION:
-        off = max(0.0, off - 0.5)
-    return state.scalar[VALENCES] * cost_of_valence(off)
+        return np.ceil(max(0.0, off - HALF_EDGE))
+    return off
 
 
 @inner

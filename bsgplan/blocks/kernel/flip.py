@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from ..kinds import CORNER, INTERIOR, JUNCTION, NO_CURVE
+from ..kinds import CORNER, INTERIOR, NO_CURVE
 from .compiled import inner
-from .energy import cost_of_valence, refresh_triangle, set_valence
+from .energy import cost_of_valence, off_goal, refresh_triangle, set_valence
 from .fan import are_joined, side_to
 from .rows import FREE, anchor, put_triangle, relink
-from .state import GOAL, KIND, VALENCE, State
+from .state import KIND, VALENCE, State
 
 MOST = 11
 """No vertex gets more edges than this."""
@@ -51,11 +51,8 @@ def flip_gain(state: State, t: int, side: int) -> float:
 
 @inner
 def _change(state: State, v: int, by: int) -> float:
-    now = abs(state.vertex[v, VALENCE] - state.value[v, GOAL])
-    then = abs(state.vertex[v, VALENCE] + by - state.value[v, GOAL])
-    if CORNER <= state.vertex[v, KIND] <= JUNCTION:
-        now, then = max(0.0, now - 0.5), max(0.0, then - 0.5)
-    return cost_of_valence(now) - cost_of_valence(then)
+    valence = state.vertex[v, VALENCE]
+    return cost_of_valence(off_goal(state, v, valence)) - cost_of_valence(off_goal(state, v, valence + by))
 
 
 @inner

@@ -1,4 +1,4 @@
-"""What every use of the kernels does with a state, one sweep after the other: cool it, polish it."""
+"""What every use of the kernels does with a state: give it credit, cool it and polish it sweep by sweep."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from ...arrays import Floats
 from .anneal import anneal
-from .state import POWER, TEMPERATURE, State
+from .state import CREDIT, N_TRIANGLES, POWER, TEMPERATURE, State
 from .sweeps import relax_all, renew
 
 POWERS = (1.0, 2.0, 4.0, 8.0)
@@ -22,6 +22,17 @@ def falling(hot: float, cold: float, n: int) -> Floats:
     [0.4, 0.2, 0.1]
     """
     return np.asarray(hot * (cold / hot) ** np.linspace(0.0, 1.0, n))
+
+
+def give_credit(state: State, share: float) -> None:
+    """Credit each triangle of a state just loaded with a share of their mean energy, vertices' included.
+
+    Every triangle costs something, so that without credit few large ones cost less than as many as wanted.
+    """
+    state.scalar[CREDIT] = 0.0
+    mean = renew(state) / state.counter[N_TRIANGLES]
+    state.scalar[CREDIT] = share * mean
+    renew(state)
 
 
 def cool(

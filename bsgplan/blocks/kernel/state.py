@@ -22,8 +22,9 @@ TRIANGLE, VALENCE, KIND, CURVE, HINT = range(5)
 U, W, ARC, GOAL, ENERGY = range(5)
 """Columns of `value`: log of the wanted edge length, exp(-2 u), place on its curve, goal valence, energy."""
 
-DELTA, DELTA_VALENCES, TEMPERATURE, OFFSET, POWER, QUALITY, SIZE, VALENCES, BEND = range(9)
-"""Entries of `scalar`: energy change of the move, of its valences alone, temperature, added to u, weights."""
+DELTA, DELTA_VALENCES, TEMPERATURE, OFFSET, POWER, QUALITY, SIZE, VALENCES, BEND, CREDIT = range(10)
+"""Entries of `scalar`: energy change of the move, of its valences alone, temperature, added to u, weights,
+what each triangle is credited with."""
 
 N_VERTICES, N_TRIANGLES, N_FREE_VERTICES, N_FREE_TRIANGLES, N_LOG, N_TAKEN, N_FREED, OVERFLOW, STAMP = range(
     9
@@ -109,7 +110,7 @@ def new_state(domain: Domain, log_size: Floats, points: Floats, rows: Ints, vert
         free_vertex=np.empty(most_vertices, dtype=np.int64),
         free_triangle=np.empty(most_triangles, dtype=np.int64),
         counter=np.zeros(9, dtype=np.int64),
-        scalar=np.zeros(9),
+        scalar=np.zeros(10),
         log_int=np.empty((LOG_ROWS, 11), dtype=np.int64),
         log_float=np.empty((LOG_ROWS, 7)),
         taken=np.empty((LOG_ROWS, 2), dtype=np.int64),
