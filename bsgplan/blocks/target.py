@@ -27,9 +27,11 @@ RAGGED_SLOPE = 1.0
 """The bound on ragged coasts."""
 
 SPREAD = (1 + np.sqrt(2.0)) * 5 / 144
-"""Square of the length over which densities are smoothed gently, in wanted edges a. Sizes are looked up at the
-vertices of blocks, each of which stands for its hexagon, of variance 5 a^2 / 72 along any line; diffusion over
-l spreads a point by 2 l^2, and a gentle one halves the same waves at a length sqrt(1 + sqrt(2)) times as large."""
+"""Square of the length over which densities are smoothed gently, in wanted edges a.
+
+Sizes are looked up at the vertices of blocks, and each stands for its hexagon, of variance 5 a^2 / 72 along
+any line. Diffusion over l spreads a point by 2 l^2; a gentle one with 1 + sqrt(2) times that halves the same
+waves."""
 
 LEAST_DENSITY = 0.25
 """Smoothing leaves at least this share of the density that was: so sharp a bend could make it negative."""

@@ -1,4 +1,4 @@
-"""What keeps the number of blocks right, and the triangles at corners: credit, and goals that are fractions."""
+"""What keeps the number of blocks right, and triangles at corners: credit, and goals that are fractions."""
 
 from __future__ import annotations
 

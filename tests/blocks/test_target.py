@@ -31,7 +31,7 @@ def test_blocks_see_one_size_as_it_is(size: float) -> None:
 
 @pytest.mark.parametrize("n", [1, 2, 4])
 def test_blocks_see_waves_of_the_density_damped(n: int) -> None:
-    """Diffusion over l damps cos(k x) to S = 1 / (1 + k^2 l^2), gently to 2 S - S^2: in closed form for one size."""
+    """Diffusion over l damps cos(k x) to S = 1 / (1 + k^2 l^2), gently to 2 S - S^2: the closed form."""
     base, share = 0.25, 0.01
     seen = _seen(SQUARE, base * waves(SQUARE, n, share) ** -0.5)
     once = 1 / (1 + SPREAD * (base * n * np.pi) ** 2)
