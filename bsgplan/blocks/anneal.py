@@ -16,14 +16,10 @@ from .cooling import Schedule, cooled
 from .domain import Domain
 from .placed import PlacedMesh
 from .target import n_blocks
-from .weights import BEND_WEIGHT
-
-USUAL_SIZE_WEIGHT = 0.4
-"""Weight of sizes at the default tolerance; with credit blocks follow sizes as closely as at 0.5 without."""
+from .weights import BEND_WEIGHT, SIZE_WEIGHT
 
 SCHEDULE = Schedule(
-    hot=0.4, cold=0.03, moves=8, steered=8, gain=0.4, most_shift=0.2, most_size_weight=USUAL_SIZE_WEIGHT,
-    credit=1.0,
+    hot=0.4, cold=0.03, moves=8, steered=8, gain=0.4, most_shift=0.2, most_size_weight=SIZE_WEIGHT, credit=1.0
 )  # fmt: skip
 """How layouts are annealed at the default tolerance of sizes."""
 
@@ -89,7 +85,7 @@ def most_size_weight(size_tolerance: float) -> float:
     An rms of log(edge / wanted) of log(size_tolerance) then costs as much at every tolerance.
 
     >>> most_size_weight(SIZE_TOLERANCE), most_size_weight(1.0)
-    (0.4, 3.0)
+    (0.5, 3.0)
     """
     if size_tolerance <= 1.0:
         return MOST_SIZE_WEIGHT

@@ -26,12 +26,15 @@ COST = 1.03
 RAGGED_SLOPE = 1.0
 """The bound on ragged coasts."""
 
-SPREAD = (1 + np.sqrt(2.0)) * 5 / 144
-"""Square of the length over which densities are smoothed gently, in wanted edges a.
+STEEP = 1.0
+"""Where a bound of this costs more than COST, no blocks can follow the size: they see it smoothed, unless the
+coast is ragged, where other limits cost more."""
+
+SPREAD = 5 / 144
+"""Square of the length over which densities are smoothed gently there, in wanted edges a.
 
 Sizes are looked up at the vertices of blocks, and each stands for its hexagon, of variance 5 a^2 / 72 along
-any line. Diffusion over l spreads a point by 2 l^2; a gentle one with 1 + sqrt(2) times that halves the same
-waves."""
+any line; diffusion over l spreads a point by 2 l^2. Gently, so that long waves and the wall are spared."""
 
 LEAST_DENSITY = 0.25
 """Smoothing leaves at least this share of the density that was: so sharp a bend could make it negative."""
@@ -87,13 +90,17 @@ class Target:
 def target_of(domain: Domain, size: SizeField, side: int, *, gradient_limit: float | None = None) -> Target:
     """Return the wanted block edges: side times the size field, limited in gradient and at the boundary.
 
-    Blocks see the field smoothed over themselves. gradient_limit None takes RAGGED_SLOPE where the domain is
-    ragged, else the tightest of SLOPES that costs at most COST in blocks.
+    gradient_limit None takes RAGGED_SLOPE where the domain is ragged, else the tightest of SLOPES that costs
+    at most COST in blocks; sizes too steep for any block are smoothed first.
     """
     h = size.h[domain.source] / domain.scale
     wanted = side * h
     plain, is_small = n_blocks(domain, wanted), _is_small(domain, wanted)
-    wanted = length = _seen(domain, wanted)
+    if gradient_limit is None and n_blocks(domain, limited(domain, wanted, STEEP)) > COST * plain:
+        least = np.full(domain.n_points, FLOORS[0])
+        *_, rough = _limited(domain, wanted, h, least, channel_limit(domain, wanted), STEEP, STEEP)
+        wanted = wanted if rough > RAGGEDNESS else _seen(domain, wanted)
+    length = wanted
 
     @cache
     def n_limited(slope: float) -> float:

@@ -32,8 +32,13 @@ class Outcome:
 
 def medians(outcomes: list[Outcome], of: Callable[[Outcome], Measures]) -> dict[str, float]:
     """Return the medians over outcomes of numbers of their blocks, or of their grids."""
-    every = [of(outcome) for outcome in outcomes]
+    return medians_of([of(outcome) for outcome in outcomes])
+
+
+def medians_of(every: list[Measures]) -> dict[str, float]:
+    """Return the medians of numbers of some meshes."""
     return {
+        "blocks": median(m.n_blocks or 0 for m in every),
         "interior": median(m.irregular_interior for m in every),
         "irregular": median(map(n_irregular, every)),
         "q_min": median(m.q_min for m in every),
