@@ -20,7 +20,17 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 STORED = HERE.parent / "docs" / "performance"
-HELPERS = ("cost", "gmsh_mesh", "layout_cases", "layout_outcome", "layout_run", "meshes", "rival", "row")
+HELPERS = (
+    "cost",
+    "gmsh_mesh",
+    "layout_cases",
+    "layout_outcome",
+    "layout_run",
+    "meshes",
+    "rival",
+    "row",
+    "stored",
+)
 """Modules of scripts/benchmarks that are no section."""
 
 
@@ -33,6 +43,7 @@ def sections() -> list[str]:
 def measure(name: str, options: argparse.Namespace) -> bool:
     """Print a section row by row, store it if asked; return whether its demands are met."""
     from benchmarks.row import Row
+    from benchmarks.stored import merged, stored
 
     from bsgplan.report.table import Column, Table, text
 
@@ -53,6 +64,8 @@ def measure(name: str, options: argparse.Namespace) -> bool:
         if not any(r.beside for r in rows):
             heads.remove("beside")
             cells = [(*cell[:3], cell[4]) for cell in cells]
+        if options.only:  # the other cases stay as they were
+            cells = merged(stored(STORED / f"{name}.txt"), cells)
         table = Table(section.TITLE, tuple(map(Column, heads)), tuple(cells))
         (STORED / f"{name}.txt").write_text(text(table) + "\n")
     return all(row.holds for row in rows)
