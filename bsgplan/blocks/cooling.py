@@ -24,6 +24,10 @@ STAGES = 10
 WATCHED = 2
 """Stages before the weight of sizes is steered: edges stray while it is hot."""
 
+PLENTY = 1.1
+"""From so many times the triangles wanted on they get no credit: where fjords make many dear, the mean energy
+would pay for more of them anywhere."""
+
 QUENCH = 5
 """Cold sweeps of an annealing that is stopped early."""
 
@@ -99,7 +103,7 @@ def cooled(
             domain, in_order(mesh), log_size,
             seed=seed + stage, size_weight=weight, bend_weight=bend_weight, offset=offset,
         )  # fmt: skip
-        give_credit(state, schedule.credit)
+        give_credit(state, schedule.credit if len(mesh.triangles) < PLENTY * n_wanted else 0.0)
         n_moves = schedule.moves * len(mesh.triangles)
         cool(state, part, n_moves, is_stopped=is_stopped)
         if is_stopped():

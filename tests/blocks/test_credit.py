@@ -65,6 +65,12 @@ def test_a_steep_field_gets_the_blocks_that_it_wants() -> None:
     assert grid.layout.n_blocks == pytest.approx(grid.layout.target.blocks["resolution"], rel=0.1)
 
 
+def test_nothing_is_credited_where_there_are_plenty(meshes) -> None:
+    """In the fjords of the North Sea the mean energy is that of few triangles: credit gave 10 000 blocks."""
+    grid = lay_out(size_field(read(meshes / "north_sea.msh").mesh), tris_per_block=16, seed=7, effort=20)
+    assert grid.layout.n_blocks < 1.3 * grid.layout.target.blocks["boundary"]
+
+
 def test_the_bone_gets_the_blocks_that_it_wants(meshes) -> None:
     """Its fine discs were passed over: 97 blocks where s h asks for 143."""
     grid = lay_out(size_field(read(meshes / "osteonT1_11.mesh").mesh), tris_per_block=16, seed=7)
