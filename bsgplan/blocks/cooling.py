@@ -25,8 +25,8 @@ WATCHED = 2
 """Stages before the weight of sizes is steered: edges stray while it is hot."""
 
 PLENTY = 1.1
-"""From so many times the triangles wanted on they get no credit: where fjords make many dear, the mean energy
-would pay for more of them anywhere."""
+"""From so many times the triangles wanted on they get no credit, but in the first stage, in which many go:
+where fjords make some dear, the mean energy would pay for more of them anywhere."""
 
 QUENCH = 5
 """Cold sweeps of an annealing that is stopped early."""
@@ -103,7 +103,8 @@ def cooled(
             domain, in_order(mesh), log_size,
             seed=seed + stage, size_weight=weight, bend_weight=bend_weight, offset=offset,
         )  # fmt: skip
-        give_credit(state, schedule.credit if len(mesh.triangles) < PLENTY * n_wanted else 0.0)
+        has_plenty = stage > 0 and len(mesh.triangles) > PLENTY * n_wanted
+        give_credit(state, 0.0 if has_plenty else schedule.credit)
         n_moves = schedule.moves * len(mesh.triangles)
         cool(state, part, n_moves, is_stopped=is_stopped)
         if is_stopped():

@@ -11,6 +11,9 @@ from .anneal import anneal
 from .state import CREDIT, N_TRIANGLES, POWER, TEMPERATURE, State
 from .sweeps import relax_all, renew
 
+OUTLIER = 100.0
+"""Times the median energy that counts of a triangle in the mean."""
+
 POWERS = (1.0, 2.0, 4.0, 8.0)
 """Exponents of 1/q in the polish, one after the other: the higher, the more the worst triangle counts."""
 
@@ -27,11 +30,14 @@ def falling(hot: float, cold: float, n: int) -> Floats:
 def give_credit(state: State, share: float) -> None:
     """Credit each triangle of a state just loaded with a share of their mean energy, vertices' included.
 
-    Every triangle costs something, so that without credit few large ones cost less than as many as wanted.
+    Every triangle costs something, so that without credit few large ones cost less than as many as wanted. Of
+    one that costs OUTLIER times the median, folded over others in a fjord, no more than that counts.
     """
     state.scalar[CREDIT] = 0.0
-    mean = renew(state) / state.counter[N_TRIANGLES]
-    state.scalar[CREDIT] = share * mean
+    total = renew(state)
+    costs = state.energy[: state.counter[N_TRIANGLES]]
+    beyond = np.maximum(costs - OUTLIER * np.median(costs), 0.0).sum()
+    state.scalar[CREDIT] = share * (total - beyond) / len(costs)
     renew(state)
 
 
