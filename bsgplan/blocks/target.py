@@ -96,20 +96,17 @@ def target_of(domain: Domain, size: SizeField, side: int, *, gradient_limit: flo
     h = size.h[domain.source] / domain.scale
     wanted = side * h
     plain, is_small = n_blocks(domain, wanted), _is_small(domain, wanted)
-    if gradient_limit is None and n_blocks(domain, limited(domain, wanted, STEEP)) > COST * plain:
-        least = np.full(domain.n_points, FLOORS[0])
-        *_, rough = _limited(domain, wanted, h, least, channel_limit(domain, wanted), STEEP, STEEP)
-        wanted = wanted if rough > RAGGEDNESS else _seen(domain, wanted)
-    length = wanted
-
-    @cache
-    def n_limited(slope: float) -> float:
-        if domain.mesh is not size.mesh:
-            return n_blocks(domain, limited(domain, wanted, slope))
-        return n_blocks(domain, size.limited(side, slope, domain.links) / domain.scale)
-
-    smooth = gradient_limit or _slope(plain, n_limited)
     across = channel_limit(domain, wanted)
+    n_limited = cache(lambda slope: n_blocks(domain, _own_limited(domain, size, side, slope)))
+    smooth = gradient_limit or _slope(plain, n_limited)
+    if gradient_limit is None and smooth > STEEP:
+        least = np.full(domain.n_points, FLOORS[0])
+        *_, rough = _limited(domain, wanted, h, least, across, STEEP, STEEP)
+        if rough <= RAGGEDNESS:
+            wanted = seen = _seen(domain, wanted)
+            across = channel_limit(domain, wanted)
+            n_limited = cache(lambda slope: n_blocks(domain, limited(domain, seen, slope)))
+            smooth = _slope(plain, n_limited)
     for floor in FLOORS:
         least = np.where(is_small, SMALL_FLOOR, max(floor, 1 / side))  # no edge shorter than the input's
         length, slope, rough = _limited(
@@ -147,6 +144,13 @@ def limited(domain: Domain, length: Floats, slope: float) -> Floats:
     Both in the domain's unit; see `Links`.
     """
     return domain.links.limited(length * domain.scale, slope) / domain.scale
+
+
+def _own_limited(domain: Domain, size: SizeField, side: int, slope: float) -> Floats:
+    """Return side times the size field limited in gradient, (n_points,), in the domain's unit."""
+    if domain.mesh is size.mesh:  # a plan asks for the same
+        return size.limited(side, slope, domain.links) / domain.scale
+    return limited(domain, side * size.h[domain.source] / domain.scale, slope)
 
 
 def _seen(domain: Domain, length: Floats) -> Floats:
