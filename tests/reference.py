@@ -11,9 +11,10 @@ from typing import Any
 
 import numpy as np
 
+from bsgplan.arrays import Floats
 from bsgplan.patterns import Pattern, Shape, best_width, width_interval
 from bsgplan.patterns.frustum import mean_ratios
-from bsgplan.patterns.strip import critical_table
+from bsgplan.patterns.strip import strip_table
 
 Cells = list[list[int]]
 
@@ -270,6 +271,29 @@ def straight_quality(counts: Sequence[int], length: float, *, is_closed: bool = 
         is_reached = sum(w[0] for w in widths) <= length <= sum(w[1] for w in widths)
         low, high = (q, high) if is_reached else (low, q)
     return low
+
+
+def stretch(qualities: Floats) -> Floats:
+    """The ratio of the principal stretches from an equilateral triangle, (n_triangles,), at least 1.
+
+    The map from the equilateral triangle with stretches s >= t has q = 2 s t / (s^2 + t^2).
+    """
+    bounded = np.clip(qualities, np.finfo(np.float64).tiny, 1.0)
+    return (1 + np.sqrt(1 - bounded**2)) / bounded
+
+
+def critical_table(m: int, n: int, *, is_closed: bool = False) -> Floats:
+    """The columns of the strip table among which the worst triangle is, (4, n_critical).
+
+    On each front the triangles with the smallest and the largest turn of apex against midpoint: exact in a
+    rectangle, an annulus and a piece of one.
+    """
+    table = strip_table(m, n, is_closed=is_closed)
+    keep: list[int] = []
+    for side in (slice(0, m), slice(m, m + n)):
+        turn = np.abs(table[3, side] - table[2, side])
+        keep += sorted({side.start + int(turn.argmin()), side.start + int(turn.argmax())})
+    return table[:, keep]
 
 
 def placed(pattern: Pattern, shape: Shape, positions: Sequence[float]) -> list[float]:

@@ -104,7 +104,8 @@ def cooled(
             seed=seed + stage, size_weight=weight, bend_weight=bend_weight, offset=offset,
         )  # fmt: skip
         has_plenty = stage > 0 and len(mesh.triangles) > PLENTY * n_wanted
-        give_credit(state, 0.0 if has_plenty else schedule.credit)
+        if schedule.credit and not has_plenty:
+            give_credit(state, schedule.credit)
         n_moves = schedule.moves * len(mesh.triangles)
         cool(state, part, n_moves, is_stopped=is_stopped)
         if is_stopped():

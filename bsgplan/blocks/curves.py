@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import Bools, Ints
-from ..mesh.topology import Topology, next_corner
+from ..mesh.topology import Topology
 from .chains import chain
 
 
@@ -30,14 +30,13 @@ class Curves:
 def find_curves(topology: Topology, is_line: Bools) -> tuple[Curves, Ints]:
     """Return the curves of the marked edges, and the code of the side opposite each corner, (n_triangles, 3).
 
-    is_line is one value an edge. A code is 2 c on a side along curve c, 2 c + 1 against it, -1 on no curve.
-    A junction is a point with other than two marked edges.
+    is_line is one value an edge, true at the boundary. A code is 2 c on a side along curve c, 2 c + 1 against
+    it, -1 on no curve. A junction is a point with other than two marked edges.
     """
     corners, marked = topology.cells.ravel(), np.flatnonzero(is_line)
     sides, ends = topology.edge_sides[marked], topology.edges[marked]
     is_boundary = sides[:, 1] < 0
-    rim = sides[is_boundary, 0]
-    ends[is_boundary] = np.column_stack([corners[rim], corners[next_corner(rim, 3)]])
+    ends[is_boundary] = topology.outline
     is_junction = ~np.isin(np.bincount(ends.ravel(), minlength=topology.n_points), (0, 2))
     nodes, walked, along, first, is_closed = _walk(ends, is_boundary, is_junction)
     curve = np.repeat(np.arange(len(first) - 1), np.diff(first) - 1)

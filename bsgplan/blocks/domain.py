@@ -16,7 +16,7 @@ from ..arrays import Bools, Floats, Ints, sums_by
 from ..errors import InvalidMesh
 from ..mesh import Mesh
 from ..mesh.quality import angles
-from ..mesh.topology import next_corner, topology
+from ..mesh.topology import topology
 from ..sizing.limits import Links
 from .curves import Curves, find_curves
 
@@ -128,9 +128,7 @@ class Domain:
     @property
     def outline(self) -> Ints:
         """Boundary edges from point to point, the domain on their left, (n_boundary_edges, 2)."""
-        topology = self.mesh.topology
-        start = topology.edge_sides[topology.is_boundary_edge, 0]
-        return topology.cells.ravel()[np.column_stack([start, next_corner(start, 3)])]
+        return self.mesh.topology.outline
 
     def to_mesh(self, points: Floats) -> Floats:
         """Return coordinates of the mesh of points in the domain's own, (n, 2), length."""

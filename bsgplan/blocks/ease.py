@@ -9,10 +9,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
-from ..arrays import Bools, Floats, Ints
+from ..arrays import Bools, Floats, Ints, sums_by
+from ..mesh.topology import connected_labels
 from .domain import Domain
 from .kinds import CORNER, INTERIOR, JUNCTION, SLIDING
 from .lack import POOR, lacks, qualities
@@ -49,13 +48,14 @@ def _eased_once(domain: Domain, mesh: PlacedMesh, log_size: Floats, powers: tupl
     moves[mesh.triangles[grown(mesh, before < POOR, RINGS)]] = True
     moves &= (mesh.kinds == INTERIOR) | (mesh.kinds == SLIDING)
     moved = _relaxed(domain, mesh, log_size, moves, powers)
-    spot, n_spots = _spots(mesh, moves)
+    spot = _spots(mesh, moves)
+    n_spots = int(spot.max()) + 1
     spot_of_triangle = np.where(moves[mesh.triangles], spot[mesh.triangles], -1).max(axis=1)
     near = spot_of_triangle >= 0
     after = qualities(moved)
 
     def summed(values: Floats | Bools) -> Floats:
-        return np.bincount(spot_of_triangle[near], values[near], n_spots).astype(np.float64)
+        return sums_by(spot_of_triangle[near], values[near], n_spots)
 
     inverted = summed(after <= 0) - summed(before <= 0)
     is_better = (inverted < 0) | ((inverted == 0) & (summed(lacks(after)) < summed(lacks(before))))
@@ -79,10 +79,7 @@ def _relaxed(
     return unload(state)
 
 
-def _spots(mesh: PlacedMesh, moves: Bools) -> tuple[Ints, int]:
-    """Return the spot of each point that moves, (n_points,), and their number: points joined by edges."""
+def _spots(mesh: PlacedMesh, moves: Bools) -> Ints:
+    """Return the spot of each point that moves, (n_points,): points joined by edges."""
     edges = mesh.topology.edges
-    a, b = edges[moves[edges].all(axis=1)].T
-    graph = coo_array((np.ones(len(a), dtype=np.int8), (a, b)), shape=(len(moves), len(moves)))
-    n_spots, spot = connected_components(graph, directed=False)
-    return spot.astype(np.int64), int(n_spots)
+    return connected_labels(edges[moves[edges].all(axis=1)], len(moves))

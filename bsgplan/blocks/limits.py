@@ -129,8 +129,9 @@ def _to_opposite_banks(domain: Domain) -> Floats:
     In a channel one triangle wide edges run aslant from bank to bank: they are longer than it is wide.
     """
     limit = np.full(domain.n_points, np.inf)
-    triangle, side = np.nonzero(domain.triangles[:, 3:] < 0)
-    tip, a, b = (domain.triangles[triangle, (side + step) % 3] for step in range(3))
+    topology = domain.mesh.topology
+    a, b = topology.outline.T
+    tip = np.roll(topology.cells, 1, axis=1).ravel()[topology.outer_sides]  # of the corner before the side
     is_shore = domain.is_boundary[tip] & ~(domain.lines.is_junction[a] | domain.lines.is_junction[b])
     tip, a, b = tip[is_shore], a[is_shore], b[is_shore]
     bank, there = domain.points[b] - domain.points[a], domain.points[tip] - domain.points[a]

@@ -11,7 +11,7 @@ from .file import MeshFile
 STRETCHED = 5.0
 """Ratio of the principal stretches from which a triangle counts as stretched."""
 QUALITY = 2 * STRETCHED / (1 + STRETCHED**2)
-"""Mean ratio of such a triangle; see `bsgplan.mesh.quality.stretch`."""
+"""Mean ratio of such a triangle: stretches s >= t make 2 s t / (s^2 + t^2) of an equilateral one."""
 MANY = 0.02
 """Share of stretched triangles that is meant: slivers that a generator leaves are under one in a hundred,
 layers along a wall a tenth and more."""

@@ -59,18 +59,6 @@ def mean_ratio(areas: Floats, lengths: Floats) -> Floats:
     return 4 * np.sqrt(3) * np.asarray(areas) / np.where(total > 0, total, 1.0)
 
 
-def stretch(qualities: Floats) -> Floats:
-    """Return the ratio of the principal stretches from an equilateral triangle, (n_triangles,), at least 1.
-
-    The map from the equilateral triangle with stretches s >= t has q = 2 s t / (s^2 + t^2).
-
-    >>> stretch(mean_ratio(np.array([12**0.5]), np.array([[2.0, 13**0.5, 13**0.5]]))).round(9)
-    array([2.])
-    """
-    bounded = np.clip(qualities, np.finfo(np.float64).tiny, 1.0)
-    return np.asarray((1 + np.sqrt(1 - bounded**2)) / bounded)
-
-
 def angles(lengths: Floats) -> Floats:
     """Return the angle at each corner, (n_triangles, 3), radians.
 

@@ -60,10 +60,31 @@ class Topology:
         mask[self.edges[self.is_boundary_edge]] = True
         return mask
 
+    @property
+    def inner_edges(self) -> Ints:
+        """Edges with two cells, (n_interior_edges,)."""
+        return np.flatnonzero(~self.is_boundary_edge)
+
+    @property
+    def inner_sides(self) -> Ints:
+        """Both sides along each interior edge, (n_interior_edges, 2)."""
+        return self.edge_sides.take(self.inner_edges, axis=0)
+
+    @property
+    def outer_sides(self) -> Ints:
+        """The side along each boundary edge, (n_boundary_edges,)."""
+        return self.edge_sides[self.is_boundary_edge, 0]
+
+    @property
+    def outline(self) -> Ints:
+        """Boundary edges from vertex to vertex as their cells run, (n_boundary_edges, 2)."""
+        start = self.outer_sides
+        return self.cells.ravel()[np.column_stack([start, next_corner(start, self.cells.shape[1])])]
+
     @cached_property
     def neighbours(self) -> Ints:
         """Pairs of cells that share an edge, (n_interior_edges, 2)."""
-        return self.edge_cells[np.flatnonzero(~self.is_boundary_edge)]
+        return self.edge_cells.take(self.inner_edges, axis=0)
 
     @cached_property
     def runs_alike(self) -> Bools:
@@ -71,30 +92,26 @@ class Topology:
 
         In a mesh of the plane, all counter-clockwise, both lie on one side of it: the mesh is folded there.
         """
-        start = self.cells.ravel()
-        first, second = self.edge_sides.take(np.flatnonzero(~self.is_boundary_edge), axis=0).T
-        return np.asarray(start[first] == start[second])
+        first, second = self.cells.ravel()[self.inner_sides].T
+        return np.asarray(first == second)
 
     @cached_property
     def tips(self) -> Ints:
         """The vertices opposite each interior edge, in both of its triangles, (n_interior_edges, 2)."""
-        sides = self.edge_sides.take(np.flatnonzero(~self.is_boundary_edge), axis=0)
-        return np.roll(self.cells, 1, axis=1).ravel()[sides]  # of the corner before the side
+        return np.roll(self.cells, 1, axis=1).ravel()[self.inner_sides]  # of the corner before the side
 
     @cached_property
     def across(self) -> Ints:
         """Cell across each edge of each cell, (n_cells, n_corners); -1 where there is none."""
-        return self._across(self.edge_cells).reshape(self.cells.shape)
+        return self._across(self.neighbours).reshape(self.cells.shape)
 
     def _across(self, pairs: Ints) -> Ints:
         """Return what lies on the other side of each side, (n_cells * n_corners,); -1 at the boundary.
 
-        pairs are those of the two sides of each edge, (n_edges, 2).
+        pairs are those of the two sides of each interior edge, (n_interior_edges, 2).
         """
         result = np.full(self.cells.size, -1, dtype=np.int64)
-        inner = np.flatnonzero(~self.is_boundary_edge)
-        sides, pairs = self.edge_sides.take(inner, axis=0), pairs.take(inner, axis=0)
-        result[sides] = pairs[:, ::-1]
+        result[self.inner_sides] = pairs[:, ::-1]
         return result
 
     @cached_property
@@ -132,7 +149,7 @@ class Topology:
         n_corners, vertex = self.cells.shape[1], self.cells.ravel()
         is_used = self.n_cells_at > 0
         fan = (np.cumsum(is_used) - 1)[vertex]
-        across = self._across(self.edge_sides)
+        across = self._across(self.inner_sides)
         corners = np.flatnonzero((self._n_cells_in_a_fan(across) != self.n_cells_at)[vertex])
         if len(corners):  # of pinches
             number = np.full(len(vertex), -1)
@@ -159,8 +176,7 @@ class Topology:
         start[vertex] = np.arange(len(vertex))
         open_ends = after[across < 0]
         start[vertex[open_ends]] = open_ends
-        alike = np.flatnonzero(~self.is_boundary_edge)[self.runs_alike]
-        start[self.edges[alike]] = -1
+        start[self.edges[self.inner_edges[self.runs_alike]]] = -1
         result = np.zeros(self.n_points, dtype=np.int64)
         turning = np.flatnonzero(start >= 0)
         first = corner = start[turning]
@@ -206,12 +222,8 @@ class Topology:
     @cached_property
     def boundary_fans(self) -> Ints:
         """The fans at both ends of each boundary edge, (n_boundary_edges, 2)."""
-        n_corners = self.cells.shape[1]
-        position = np.flatnonzero(self.is_boundary_edge[self.cell_edges.ravel()])
-        order = np.argsort(self.cell_edges.ravel()[position], kind="stable")
-        position = position[order]
-        fan = self.corner_fan.ravel()
-        return np.column_stack([fan[position], fan[next_corner(position, n_corners)]])
+        start, fan = self.outer_sides, self.corner_fan.ravel()
+        return fan[np.column_stack([start, next_corner(start, self.cells.shape[1])])]
 
     @cached_property
     def n_boundary_loops(self) -> int:

@@ -91,24 +91,6 @@ def strip_table(m: int, n: int, *, is_closed: bool = False) -> Floats:
 
 
 @lru_cache(maxsize=4096)
-def critical_table(m: int, n: int, *, is_closed: bool = False) -> Floats:
-    """Return the columns of the strip table among which to look for the worst triangle, (4, n_critical).
-
-    On each front the triangles with the smallest and the largest turn of apex against midpoint: exact in a
-    rectangle, an annulus and a piece of one.
-
-    >>> critical_table(12, 11).shape, strip_table(12, 11).shape
-    ((4, 4), (4, 23))
-    """
-    table = strip_table(m, n, is_closed=is_closed)
-    keep: list[int] = []
-    for side in (slice(0, m), slice(m, m + n)):
-        turn = np.abs(table[3, side] - table[2, side])
-        keep += sorted({side.start + int(turn.argmin()), side.start + int(turn.argmax())})
-    return frozen_floats(table[:, keep])
-
-
-@lru_cache(maxsize=4096)
 def critical_turns(m: int, n: int, *, is_closed: bool = False) -> Floats:
     """Return the smallest and the largest turn of apex against midpoint on each front, (2, 2).
 

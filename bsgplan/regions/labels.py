@@ -11,7 +11,7 @@ import numpy as np
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 
-from ..arrays import Bools, Floats, Ints
+from ..arrays import Bools, Floats, Ints, short_type
 from ..mesh import Mesh
 
 SPARSE_KEYS = 8
@@ -65,7 +65,7 @@ def _components(beside: Ints) -> Ints:
     A node is its own neighbour where there is none, so that nothing needs counting.
     """
     n, size = len(beside), beside.size
-    small = np.int32 if size < np.iinfo(np.int32).max else np.int64
+    small = short_type(size)
     links = np.where(beside >= 0, beside, np.arange(n)[:, None]).astype(small)
     graph = csr_array((np.ones(size), links.ravel(), np.arange(0, size + 1, 3, dtype=small)), shape=(n, n))
     return connected_components(graph, connection="strong")[1].astype(np.int64)  # symmetric: strong is weak

@@ -1,4 +1,4 @@
-"""The noun Links, over which the limit on a size's gradient is handed on, and the verb `limit_gradient`."""
+"""The noun Links: pairs of points over which a limit on the gradient of a size is handed on."""
 
 from __future__ import annotations
 
@@ -13,18 +13,6 @@ from ..mesh.quality import lengths as lengths_of
 
 AT_ONCE = 1 << 15
 """Points of a wave that are handed on at a time: their links stay in a processor's cache."""
-
-
-def limit_gradient(mesh: Mesh, size: Floats, slope: float) -> Floats:
-    """Return the largest field below size whose gradient nowhere exceeds slope, (n_points,), length.
-
-    min over y of size(y) + slope * distance(x, y), handed on until nothing is lowered; see `Links`.
-
-    >>> mesh = Mesh(np.array([[0.0, 0], [1, 0], [0, 1]]), np.array([[0, 1, 2]]))
-    >>> limit_gradient(mesh, np.array([1.0, 5.0, 1.2]), 0.5)
-    array([1. , 1.5, 1.2])
-    """
-    return Links.of(mesh).limited(size, slope)
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,7 +30,7 @@ class Links:
     def of(cls, mesh: Mesh) -> Links:
         """Return the links of a mesh."""
         topology = mesh.topology
-        inner = topology.edges.take(np.flatnonzero(~topology.is_boundary_edge), axis=0)
+        inner = topology.edges.take(topology.inner_edges, axis=0)
         return cls(mesh, _across(mesh.points, topology.tips, inner))
 
     @cached_property
@@ -57,8 +45,12 @@ class Links:
     def limited(self, size: Floats, slope: float) -> Floats:
         """Return the largest field below size whose gradient nowhere exceeds slope, (n_points,), length.
 
-        Every link is asked once; what was lowered is handed on as a wave, which runs as many links as the
-        limit reaches: a few block edges.
+        min over y of size(y) + slope * distance(x, y). Every link is asked once; what was lowered is handed
+        on as a wave, which runs as many links as the limit reaches: a few block edges.
+
+        >>> mesh = Mesh(np.array([[0.0, 0], [1, 0], [0, 1]]), np.array([[0, 1, 2]]))
+        >>> Links.of(mesh).limited(np.array([1.0, 5.0, 1.2]), 0.5)
+        array([1. , 1.5, 1.2])
         """
         result = np.array(size, dtype=np.float64)
         is_lowered = np.zeros(len(result), dtype=bool)

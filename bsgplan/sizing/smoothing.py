@@ -12,7 +12,7 @@ import numpy as np
 from scipy.sparse import csr_array
 from scipy.sparse.linalg import LinearOperator, cg
 
-from ..arrays import Floats, sums_by
+from ..arrays import Floats, short_type, sums_by
 from ..mesh import Mesh
 from ..mesh.operators import between_ends, cotangents
 from .diffusion import SLIVER
@@ -29,13 +29,13 @@ def gradient_jumps(mesh: Mesh) -> csr_array:
     the edge a b of a triangle, -cot b for a, -cot a for b.
     """
     topology, corners = mesh.topology, mesh.triangles.ravel()
-    inner = np.flatnonzero(~topology.is_boundary_edge)
-    n, ends = len(inner), topology.edges.take(inner, axis=0)
+    ends = topology.edges.take(topology.inner_edges, axis=0)
+    n = len(ends)
     cotangent = cotangents(mesh)
     of_start, of_end = cotangent.ravel(), np.roll(cotangent, -1, axis=1).ravel()
     values = np.zeros((n, 4))
     low, high, *opposite = values.T
-    for side, beyond in zip(topology.edge_sides.take(inner, axis=0).T, opposite, strict=True):
+    for side, beyond in zip(topology.inner_sides.T, opposite, strict=True):
         at_start, at_end = of_start[side], of_end[side]
         is_along = corners[side] == ends[:, 0]
         low -= np.where(is_along, at_end, at_start)
@@ -43,8 +43,8 @@ def gradient_jumps(mesh: Mesh) -> csr_array:
         np.add(at_start, at_end, out=beyond)
     damping = np.minimum(mesh.qualities / SLIVER, 1.0)
     values *= np.minimum(*(damping[cell] for cell in topology.neighbours.T))[:, None]
-    columns = np.concatenate([ends, topology.tips], axis=1, dtype=np.int32, casting="same_kind")
-    start = np.arange(0, 4 * n + 1, 4, dtype=np.int32)
+    start = np.arange(0, 4 * n + 1, 4, dtype=short_type(4 * n))
+    columns = np.concatenate([ends, topology.tips], axis=1, dtype=start.dtype, casting="same_kind")
     return csr_array((values.ravel(), columns.ravel(), start), shape=(n, mesh.n_points))
 
 

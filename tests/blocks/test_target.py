@@ -64,3 +64,15 @@ def test_on_smooth_domains_the_limit_of_the_gradient_costs_little(slope: float) 
     if at:
         tighter = target_of(domain_of(mesh), SizeField(mesh, h), 4, gradient_limit=SLOPES[at - 1])
         assert tighter.blocks["gradient"] > COST * tighter.blocks["resolution"]
+
+
+@pytest.mark.parametrize("slope", [0.3, 0.4, 0.5])
+def test_smoothed_sizes_are_limited_as_smoothed(slope: float) -> None:
+    """Ridges too steep for blocks in a box whose walls carry every edge: the boundary costs nothing more.
+
+    The limit of the gradient used to be judged, and its blocks told, by the sizes as they were.
+    """
+    mesh = domains.grid_mesh(40, 40)
+    h = 0.4 + slope * np.abs(mesh.points[:, 0] % 10 - 5)
+    blocks = target_of(domain_of(mesh), SizeField(mesh, h), 4).blocks
+    assert blocks["gradient"] == pytest.approx(blocks["boundary"], rel=1e-9)

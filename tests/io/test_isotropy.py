@@ -9,19 +9,24 @@ import pytest
 from conftest import SHARED
 from hypothesis import given
 from hypothesis import strategies as st
+from reference import stretch
 from strategies import jittered
 
 from bsgplan.cli import main
 from bsgplan.io import read
 from bsgplan.io.file import RawMesh, assemble
-from bsgplan.io.isotropy import MANY, STRETCHED, warn_of_stretched
-from bsgplan.mesh.quality import corner_edge_lengths, mean_ratio, signed_areas, stretch
+from bsgplan.io.isotropy import MANY, QUALITY, STRETCHED, warn_of_stretched
+from bsgplan.mesh.quality import corner_edge_lengths, mean_ratio, signed_areas
 
 ISOTROPIC = (
     "north_sea.msh", "la.1.node", "wnat_test_18578.fort.14", "helmholtz_apartment.vtk",
     "square_triquad.mesh", "multizone_cht_3cyl_ffd.su2", "mesh_NACA0012_inv.su2",
 )  # fmt: skip
 EQUILATERAL = np.array([[0, 0], [1, 0], [0.5, np.sqrt(0.75)]])
+
+
+def test_the_quality_that_is_warned_of_is_that_of_the_stretch():
+    assert stretch(np.array([QUALITY]))[0] == pytest.approx(STRETCHED, rel=1e-12)
 
 
 @given(ratio=st.floats(1, 1e4), turn=st.floats(0, 6), after=st.floats(0, 6), scale=st.floats(1e-3, 1e3))

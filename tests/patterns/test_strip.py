@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from reference import critical_table
 
 from bsgplan.mesh.quality import corner_edge_lengths, mean_ratio, signed_areas
 from bsgplan.patterns import (
@@ -19,7 +20,7 @@ from bsgplan.patterns import (
     width_interval,
 )
 from bsgplan.patterns.frustum import mean_ratios
-from bsgplan.patterns.strip import critical_table, ring_turn, strip_table
+from bsgplan.patterns.strip import critical_turns, ring_turn, strip_table
 
 COUNT = st.integers(1, 40)
 RING = st.integers(3, 40)
@@ -142,6 +143,14 @@ def test_the_worst_triangle_is_critical_for_any_lengths(m, n, first, second, wid
     critical = mean_ratios(critical_table(m, n), *sizes, is_closed=False)
     assert critical.min() == pytest.approx(every.min(), rel=1e-9)
     assert critical_table(m, n).shape[1] <= m + n
+
+
+@given(COUNT, COUNT, st.booleans())
+def test_critical_turns_are_those_of_the_critical_triangles(m, n, is_closed):
+    side, _, midpoint, apex = critical_table(m, n, is_closed=is_closed)
+    turns = np.abs(apex - midpoint)
+    for found, own in zip(critical_turns(m, n, is_closed=is_closed), (side < 0.5, side > 0.5), strict=True):
+        assert found.tolist() == [turns[own].min(), turns[own].max()]
 
 
 @given(RING, RING, st.floats(1, 5), st.floats(1.01, 4))

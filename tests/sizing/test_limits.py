@@ -13,7 +13,7 @@ from bsgplan.arrays import Floats
 from bsgplan.mesh import Mesh
 from bsgplan.sizing import SizeField
 from bsgplan.sizing.counts import capped_triangles, gradient_limited_blocks
-from bsgplan.sizing.limits import limit_gradient
+from bsgplan.sizing.limits import Links
 
 SLOPE = st.sampled_from([0.05, 0.2, 0.6, 1.5])
 
@@ -24,7 +24,7 @@ def test_a_limited_size_is_lipschitz_along_every_edge_and_never_above_the_input(
 ) -> None:
     mesh, log_h = case
     size = np.exp(log_h)
-    limited = limit_gradient(mesh, size, slope)
+    limited = Links.of(mesh).limited(size, slope)
     i, j = mesh.topology.edges.T
     assert (limited <= size).all()
     assert (np.abs(limited[i] - limited[j]) <= slope * mesh.edge_lengths * (1 + 1e-12) + 1e-12).all()
@@ -34,8 +34,8 @@ def test_a_limited_size_is_lipschitz_along_every_edge_and_never_above_the_input(
 @given(hilly(12), SLOPE)
 def test_limiting_twice_changes_nothing(case: tuple[Mesh, Floats], slope: float) -> None:
     mesh, log_h = case
-    once = limit_gradient(mesh, np.exp(log_h), slope)
-    assert limit_gradient(mesh, once, slope) == pytest.approx(once, rel=1e-12)
+    once = Links.of(mesh).limited(np.exp(log_h), slope)
+    assert Links.of(mesh).limited(once, slope) == pytest.approx(once, rel=1e-12)
 
 
 @settings(max_examples=25)
@@ -46,7 +46,7 @@ def test_a_limited_size_is_close_to_the_one_over_straight_distances(
     """Paths through a mesh are never shorter than straight; on jittered ones the worst is 23 % longer."""
     mesh, log_h = case
     size = np.exp(log_h)
-    limited = limit_gradient(mesh, size, slope)
+    limited = Links.of(mesh).limited(size, slope)
     points, sizes = mesh.points.tolist(), size.tolist()
     slow = np.array(reference.limited_sizes(points, sizes, slope))
     assert (limited >= slow * (1 - 1e-12)).all()
@@ -58,14 +58,14 @@ def test_a_cone_on_a_fine_disc_is_right_to_four_percent() -> None:
     mesh = disc(16)
     radius = np.hypot(*mesh.points.T)
     size = np.where(radius == 0, 0.01, 9.0)
-    limited = limit_gradient(mesh, size, 0.5) - 0.01
+    limited = Links.of(mesh).limited(size, 0.5) - 0.01
     assert (limited[radius > 0] / (0.5 * radius[radius > 0])).max() <= 1.04
 
 
 def test_a_field_that_is_gentle_enough_passes_unchanged() -> None:
     mesh = jittered(9, 9, 40111)
     size = 1 + 0.1 * mesh.points[:, 0]
-    assert np.array_equal(limit_gradient(mesh, size, 0.11), size)
+    assert np.array_equal(Links.of(mesh).limited(size, 0.11), size)
 
 
 def test_a_limited_block_count_grows_with_the_bound_and_ends_at_the_count() -> None:
@@ -93,5 +93,5 @@ def test_a_diagonal_beside_an_edge_does_not_lengthen_it() -> None:
     """Round a vertex of valence 3 each edge of the rim also joins the tips of two triangles."""
     points = np.array([[0.0, 0.0], [4.0, 0.0], [2.0, 3.0], [2.0, 1.0]])
     mesh = Mesh(points, np.array([[0, 1, 3], [1, 2, 3], [2, 0, 3]]))
-    limited = limit_gradient(mesh, np.array([1.0, 10.0, 10.0, 10.0]), 0.5)
+    limited = Links.of(mesh).limited(np.array([1.0, 10.0, 10.0, 10.0]), 0.5)
     assert limited == pytest.approx(1.0 + 0.5 * np.linalg.norm(points, axis=1))
