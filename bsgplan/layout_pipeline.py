@@ -78,7 +78,7 @@ def lay_out_mesh(
 def compile_kernels() -> None:
     """Lay out a small square where no cache has the kernels: work and compiler are then timed apart."""
     from .blocks.kernel.anneal import anneal
-    from .blocks.kernel.compiled import is_cached
+    from .compiled import is_cached
 
     if is_cached(anneal):
         return

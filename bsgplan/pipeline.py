@@ -18,7 +18,7 @@ import numpy as np
 import shapely
 from shapely.geometry.base import BaseGeometry
 
-from .arrays import Bools, sums_by
+from .arrays import Bools, Floats, sums_by
 from .blocks.domain import domain_of
 from .blocks.target import target_of
 from .errors import InvalidMesh, MeshReadError
@@ -27,6 +27,7 @@ from .io.isotropy import warn_of_stretched
 from .io.part import part_of
 from .io.size_file import sizes_from
 from .memory import reused
+from .mesh.thinned import Thinned, thinned
 from .planning import Plan, check_block_size, estimate
 from .planning.inverse import within
 from .planning.totals import GRADIENT_LIMIT
@@ -37,6 +38,13 @@ from .regions.segmentation import PERSISTENCE
 from .regions.selection import triangles_inside
 from .result import PlannedMesh
 from .sizing import SizeField, named_size_field, size_field
+from .sizing.thinned import thin_named_size_field, thin_size_field
+
+LARGE = 200_000
+"""A mesh of so many triangles is planned on a thinned one: there the compiled loop pays for its start."""
+
+LEAST = 16
+"""Triangles per block from which that is done: a block then still holds three of the thinned mesh."""
 
 
 @reused()
@@ -52,11 +60,12 @@ def plan_blocks(
     persistence: float = PERSISTENCE,
     plateau: float = PLATEAU,
     gradient_limit: float = GRADIENT_LIMIT,
+    every_triangle: bool = False,
     progress: Callable[[str], None] = lambda _: None,
 ) -> PlannedMesh:
     """Return a mesh file with its plans, one a block size.
 
-    With n_blocks there is one plan, at the smallest block size that needs no more blocks than that. size
+    A large mesh is planned on a thinned one, see `thin_for`, unless every_triangle is asked for. With n_blocks there is one plan, at the smallest block size that needs no more blocks than that. size
     names a point or cell array, of size_file if that is given; region is a polygon in the coordinates of the
     file, cut out first: each of its connected pieces is one region.
     Raises what its steps raise; see `estimate`, `find_regions` and `within`. Raises InvalidMesh for quads.
@@ -66,9 +75,11 @@ def plan_blocks(
         check_block_size(int(n))
     cut = mesh_file if region is None else cut_out(mesh_file, region)
     progress("measuring sizes")
+    thin = None if every_triangle else thin_for(cut, tris_per_block, n_blocks)
     return plan_sizes(
         cut,
-        size_of(cut, size, size_file),
+        size_of(cut, size, size_file, thin),
+        thin=thin,
         tris_per_block=tris_per_block,
         n_blocks=n_blocks,
         is_drawn=region is not None,
@@ -84,6 +95,7 @@ def plan_sizes(
     mesh_file: MeshFile,
     field: SizeField,
     *,
+    thin: Thinned | None = None,
     tris_per_block: int | Sequence[int] = 16,
     n_blocks: int | None = None,
     is_drawn: bool = False,
@@ -95,7 +107,7 @@ def plan_sizes(
 ) -> PlannedMesh:
     """Return a mesh file with its plans where its size field is known; see `plan_blocks`.
 
-    is_drawn says that the file is what a user drew: each connected piece is one region then.
+    thin is the thinned mesh where the field is that of one; is_drawn says that the file is what a user drew: each connected piece is one region then.
     """
 
     def drawn(n: int) -> Regions:
@@ -119,8 +131,23 @@ def plan_sizes(
         )
 
     if n_blocks is not None:
-        return PlannedMesh(mesh_file, (within(plan_at, field.expected_triangles, n_blocks),))
-    return PlannedMesh(mesh_file, tuple(plan_at(int(n)) for n in np.atleast_1d(tris_per_block)))
+        plans = [within(plan_at, field.expected_triangles, n_blocks)]
+    else:
+        plans = [plan_at(int(n)) for n in np.atleast_1d(tris_per_block)]
+    planned_on = field.mesh.n_triangles
+    return PlannedMesh(mesh_file, tuple(p if thin is None else p.carried(thin) for p in plans), planned_on)
+
+
+def thin_for(
+    mesh_file: MeshFile, tris_per_block: int | Sequence[int], n_blocks: int | None = None
+) -> Thinned | None:
+    """Return the thinned mesh to plan on: of a plane mesh of LARGE triangles or more, for blocks of LEAST.
+
+    None where the plan is made on the mesh itself.
+    """
+    mesh = mesh_file.mesh
+    least = np.min(tris_per_block) if n_blocks is None else mesh.n_triangles / n_blocks
+    return thinned(mesh) if mesh.is_planar and mesh.n_triangles >= LARGE and least >= LEAST else None
 
 
 def check_triangles_only(mesh_file: MeshFile) -> None:
@@ -133,20 +160,31 @@ def check_triangles_only(mesh_file: MeshFile) -> None:
 
 
 def size_of(
-    mesh_file: MeshFile, name: str | None = None, size_file: str | os.PathLike[str] | None = None
+    mesh_file: MeshFile,
+    name: str | None = None,
+    size_file: str | os.PathLike[str] | None = None,
+    thin: Thinned | None = None,
 ) -> SizeField:
     """Return the size field of a mesh file: its own edges, its array of that name, or that of a size file.
+
+    On its thinned mesh where that is given.
 
     Lengths of a projected mesh are true metres. Warns where many triangles are stretched, if their edges are
     the size. Raises MeshReadError where there is no such array, and what `sizes_from` raises.
     """
     mesh = mesh_file.mesh
+
+    def named(values: Floats, source: str) -> SizeField:
+        if thin is None:
+            return named_size_field(mesh, values, source)
+        return thin_named_size_field(thin, values, source)
+
     if size_file is not None:
         source = os.fspath(size_file) + ("" if name is None else f": {name}")
-        return named_size_field(mesh, sizes_from(size_file, mesh_file, name=name), source)
+        return named(sizes_from(size_file, mesh_file, name=name), source)
     if name is None:
         warn_of_stretched(mesh_file)
-        return size_field(mesh)
+        return size_field(mesh) if thin is None else thin_size_field(thin)
     arrays = {**mesh_file.cell_data, **mesh_file.point_data}
     if name not in arrays:
         there = ", ".join(sorted(arrays)) or "none"
@@ -155,7 +193,7 @@ def size_of(
     if mesh_file.projection is not None and values.shape in {(mesh.n_points,), (mesh.n_triangles,)}:
         where = mesh.points if name in mesh_file.point_data else mesh.centroids
         values = values * mesh_file.projection.scale(where)
-    return named_size_field(mesh, values, name)
+    return named(values, name)
 
 
 def boundary_limited_blocks(size: SizeField, tris_per_block: int) -> float | None:

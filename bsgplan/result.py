@@ -27,6 +27,8 @@ class PlannedMesh:
     """The mesh planned; the part inside, where a region was drawn."""
     plans: tuple[Plan, ...] = field(repr=False)
     """One plan a block size."""
+    planned_on: int
+    """Triangles of the mesh that the plans were made on: those of the file, or of its thinned mesh."""
 
     @property
     def plan(self) -> Plan:

@@ -76,7 +76,7 @@ def layout(
     """
     check_options(tris_per_block, effort, size_tolerance, gradient_limit, seed, ranks)
     from ..blocks.kernel.anneal import anneal
-    from ..blocks.kernel.compiled import is_cached
+    from ..compiled import is_cached
     from ..laid_out.export import flavour
     from ..layout_pipeline import lay_out_mesh
     from ..result import dumps

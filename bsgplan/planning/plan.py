@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import isqrt, sqrt
 
@@ -10,7 +10,9 @@ import numpy as np
 
 from ..errors import InvalidOption
 from ..mesh.irregularity import Irregularity
+from ..mesh.thinned import Thinned
 from ..regions import Region, Regions
+from ..regions.carried import carried
 from ..regions.region import UNIFORM
 from .candidate import Candidate, candidates
 from .fit import block_counts
@@ -142,6 +144,12 @@ class Plan:
         """Sum over isolated regions: fronts shared by two regions count twice, so an upper estimate."""
         each = [p.irregularity for p in self.region_plans]
         return Irregularity(sum(i.positive for i in each), sum(i.negative for i in each))
+
+    def carried(self, thin: Thinned) -> Plan:
+        """Return the plan of a thinned mesh as one of the whole mesh: the same patterns and drivers."""
+        regions = carried(self.regions, thin)
+        plans = tuple(replace(p, region=regions[p.region.id]) for p in self.region_plans)
+        return replace(self, regions=regions, region_plans=plans)
 
 
 def estimate(

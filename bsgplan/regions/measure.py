@@ -42,7 +42,7 @@ def measure_regions(
     inside = np.where(shown, label, n)  # the rest gets a label of its own, dropped below
     measured = profiles(size, inside)
     charges = region_charges(inside, size.fluxes)
-    irregularity = inner_irregularity(size, inside, n)
+    irregularity = inner_irregularity(mesh, inside, n)
     is_closed = np.sum(_are_rings(size, inside, _levels(size, inside, n)), axis=0) >= 2
     is_monotone = _monotone(size, inside, n, persistence)
     order, start = grouped(inside, n + 1)

@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from ..arrays import Ints, frozen_ints
+from ..mesh import Mesh
 from ..mesh.irregularity import Irregularity, summed
 from ..sizing import SizeField
 from .profile import Profile
@@ -82,9 +83,8 @@ class Regions:
         return float(sum(region.charge for region in self.regions))
 
 
-def inner_irregularity(size: SizeField, label: Ints, n_labels: int) -> list[Irregularity]:
+def inner_irregularity(mesh: Mesh, label: Ints, n_labels: int) -> list[Irregularity]:
     """Return the irregularity of the vertices whose triangles all have one label and that are no boundary."""
-    mesh = size.mesh
     low = np.full(mesh.n_points, np.iinfo(np.int64).max)
     high = np.full(mesh.n_points, -1)
     corner, repeated = mesh.triangles.ravel(), np.repeat(label, 3)

@@ -27,14 +27,26 @@ def size_field(mesh: Mesh, *, reach: float = REACH) -> SizeField:
     2.0
     """
     log_h = fit_edges(mesh, np.log(mesh.edge_lengths), reach)
-    raw = SizeField(mesh, np.exp(log_h))
-    return SizeField(mesh, raw.h * np.sqrt(raw.expected_triangles / mesh.n_triangles))
+    return calibrated(SizeField(mesh, np.exp(log_h)), mesh.n_triangles)
+
+
+def calibrated(size: SizeField, n_triangles: float) -> SizeField:
+    """Return a size field scaled so that it expects so many triangles."""
+    return SizeField(size.mesh, size.h * np.sqrt(size.expected_triangles / n_triangles), size.source)
 
 
 def named_size_field(mesh: Mesh, values: Floats, name: str, *, reach: float = REACH) -> SizeField:
     """Return the size field of an array, one edge length a point or a triangle; never calibrated.
 
     Cell values are averaged to the points by area. Raises InvalidSize unless positive and finite.
+    """
+    return SizeField(mesh, np.exp(smooth(mesh, log_sizes(mesh, values, name), reach)), name)
+
+
+def log_sizes(mesh: Mesh, values: Floats, name: str) -> Floats:
+    """Return the logarithm of sizes, one a point or a triangle, at the points, (n_points,).
+
+    Raises InvalidSize as `named_size_field` does.
     """
     values = np.asarray(values, dtype=np.float64)
     if values.shape not in {(mesh.n_points,), (mesh.n_triangles,)}:
@@ -49,5 +61,4 @@ def named_size_field(mesh: Mesh, values: Floats, name: str, *, reach: float = RE
             f"size {name!r} is {values[first]:g} at index {first} ({np.count_nonzero(is_bad)} such values); "
             "an edge length is positive and finite"
         )
-    log_h = np.log(values) if len(values) == mesh.n_points else to_vertices(mesh, np.log(values))
-    return SizeField(mesh, np.exp(smooth(mesh, log_h, reach)), name)
+    return np.log(values) if len(values) == mesh.n_points else to_vertices(mesh, np.log(values))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from bsgplan.blocks.kernel.compiled import compiled
+from bsgplan.compiled import compiled
 
 
 def probe(kernel: Any) -> Callable[..., Any]:

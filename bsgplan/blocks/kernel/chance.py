@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .compiled import inner
+from ...compiled import inner
 from .state import State
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..kinds import CORNER, INTERIOR, NO_CURVE, SLIDING
 from .bend import side_arcs
-from .compiled import inner
+from ...compiled import inner
 from .energy import refresh_triangle, set_valence
 from .fan import corner_of, fan_of, n_common, side_to
 from .flip import MOST

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..kinds import CORNER, HALF_EDGE, JUNCTION
 from .bend import bend
-from .compiled import inner
+from ...compiled import inner
 from .journal import keep_triangle, keep_vertex
 from .shape import SHAPE, soft
 from .state import (

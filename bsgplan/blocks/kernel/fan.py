@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .compiled import inner
+from ...compiled import inner
 from .state import COMMON, FAN, JOINED, SPARE, TRIANGLE, State
 
 

@@ -7,7 +7,7 @@
 from __future__ import annotations
 
 from ...arrays import Ints
-from .compiled import inner, whole
+from ...compiled import inner, whole
 from .state import (
     DELTA,
     DELTA_VALENCES,

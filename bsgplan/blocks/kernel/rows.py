@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..kinds import NO_CURVE
-from .compiled import inner, whole
+from ...compiled import inner, whole
 from .fan import side_to
 from .journal import keep_triangle, keep_vertex
 from .state import TRIANGLE, State

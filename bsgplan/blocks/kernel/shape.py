@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .compiled import inner
+from ...compiled import inner
 
 SOFT = 0.02
 """d of chi(r) = (r + sqrt(r^2 + 4 d^2)) / 2: areas under a fiftieth of the wanted one count as that."""

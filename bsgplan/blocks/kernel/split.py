@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..kinds import FROZEN_SIDE, INTERIOR, SLIDING
 from .bend import side_arcs
-from .compiled import inner
+from ...compiled import inner
 from .energy import refresh_triangle, set_valence
 from .fan import side_to
 from .flip import MOST

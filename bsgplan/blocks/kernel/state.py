@@ -14,7 +14,7 @@ import numpy as np
 from ...arrays import Floats, Ints
 from ..corners import boundary_goals
 from ..domain import Domain
-from .compiled import whole
+from ...compiled import whole
 
 TRIANGLE, VALENCE, KIND, CURVE, HINT = range(5)
 """Columns of `vertex`: a triangle at it, number of edges, kind, curve (or -1), domain triangle near it."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..kinds import CORNER, SLIDING
-from .compiled import compiled, inner
+from ...compiled import compiled, inner
 from .energy import is_upright, triangle_energy, valence_energy
 from .flip import can_flip, flip
 from .journal import begin, commit, rollback

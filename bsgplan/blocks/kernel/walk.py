@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...arrays import Floats, Ints
-from .compiled import compiled, inner
+from ...compiled import compiled, inner
 
 STEPS = 2000
 """The most triangles that one walk crosses: it stops walks that circle round a point outside."""
