@@ -42,8 +42,12 @@ def check_shapes(points: Floats, triangles: Ints) -> None:
         )
 
 
-def check_mesh(points: Floats, triangles: Ints) -> None:
-    """Raise InvalidMesh unless points and triangles satisfy what `Mesh` promises, edges aside."""
+def check_mesh(points: Floats, triangles: Ints) -> tuple[Floats, Floats]:
+    """Raise InvalidMesh unless points and triangles satisfy what `Mesh` promises, edges aside.
+
+    Returns what that needs and others will: the area of each triangle, (n_triangles,), length**2, and the
+    length of the edge opposite each corner, (n_triangles, 3), length.
+    """
     check_shapes(points, triangles)
     if np.count_nonzero(np.bincount(triangles.ravel(), minlength=len(points))) < len(points):
         raise InvalidMesh("some points belong to no triangle; drop them with bsgplan.mesh.clean")
@@ -52,7 +56,8 @@ def check_mesh(points: Floats, triangles: Ints) -> None:
         raise InvalidMesh(f"the mesh is {extent:g} across, beyond reckoning; give it in another unit")
     with np.errstate(over="ignore", invalid="ignore"):
         areas = signed_areas(points, triangles)
-        longest = np.maximum.reduce(corner_edge_lengths(points, triangles).T) ** 2
+        opposite = corner_edge_lengths(points, triangles)
+        longest = np.maximum.reduce(opposite.T) ** 2
         is_flat = ~(np.abs(areas) > FLAT * longest)
     if is_flat.any():
         raise InvalidMesh(_first(is_flat, triangles, "zero area", "clean the mesh first"))
@@ -62,6 +67,7 @@ def check_mesh(points: Floats, triangles: Ints) -> None:
                 np.asarray(areas < 0), triangles, "clockwise corners", "orient them with bsgplan.mesh.clean"
             )
         )
+    return np.abs(areas), opposite
 
 
 def _first(is_bad: Bools, triangles: Ints, what: str, remedy: str) -> str:

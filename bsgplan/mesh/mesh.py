@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -27,11 +27,17 @@ class Mesh:
     """Vertex coordinates, (n_points, 2) or (n_points, 3), in the length unit of the file."""
     triangles: Ints
     """Corner indices, (n_triangles, 3), counter-clockwise."""
+    areas: Floats = field(init=False, repr=False)
+    """Area of each triangle, (n_triangles,), length**2."""
+    corner_edge_lengths: Floats = field(init=False, repr=False)
+    """Length of the edge opposite each corner, (n_triangles, 3), length."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "points", frozen_floats(self.points))
         object.__setattr__(self, "triangles", frozen_ints(self.triangles))
-        check_mesh(self.points, self.triangles)
+        areas, opposite = check_mesh(self.points, self.triangles)
+        object.__setattr__(self, "areas", areas)
+        object.__setattr__(self, "corner_edge_lengths", opposite)
         _ = self.topology  # refuses non-manifold edges
 
     @property
@@ -53,16 +59,6 @@ class Mesh:
     def topology(self) -> Topology:
         """Edges, components, fans and boundary loops."""
         return topology(self.triangles, self.n_points)
-
-    @cached_property
-    def corner_edge_lengths(self) -> Floats:
-        """Length of the edge opposite each corner, (n_triangles, 3), length."""
-        return self.edge_lengths[np.roll(self.topology.cell_edges, -1, axis=1)]
-
-    @cached_property
-    def areas(self) -> Floats:
-        """Area of each triangle, (n_triangles,), length**2."""
-        return np.abs(quality.signed_areas(self.points, self.triangles))
 
     @cached_property
     def area(self) -> float:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..arrays import Floats, Ints, short_type
+from ..arrays import Ints, short_type
 from .mesh import Mesh
 
 
@@ -28,20 +28,6 @@ class Thinned:
     """The point left that each point of the whole was merged into, (whole.n_points,)."""
     triangle: Ints = field(repr=False)
     """The triangle left that each triangle of the whole was merged into, (whole.n_triangles,)."""
-
-    def means(self, points: Ints, values: Floats, where: Floats) -> tuple[Floats, Floats]:
-        """Return the mean of values at places, one each point left, and the mean way to them from it.
-
-        points are those of the whole mesh that the values belong to, (n, k) for k points each, values is
-        (n,) and where (n, 2); the results are (mesh.n_points,) and (mesh.n_points, 2). Every point needs one.
-        """
-        owner = self.point[points].reshape(len(values), -1).T
-        count, *sums = (
-            sum(np.bincount(own, weights, self.mesh.n_points) for own in owner)
-            for weights in (None, values, *where.T)
-        )
-        total, *places = (np.asarray(each) / count for each in sums)
-        return total, np.column_stack(places) - self.mesh.points
 
 
 def thinned(mesh: Mesh) -> Thinned:

@@ -25,10 +25,11 @@ def thin_size_field(thin: Thinned) -> SizeField:
 
     Calibrated: it expects as many triangles as the whole mesh has.
     """
-    whole = thin.whole
-    start, end = (whole.points.take(ends, axis=0) for ends in whole.topology.edges.T)
-    means = thin.means(whole.topology.edges, np.log(whole.edge_lengths), (start + end) / 2)
-    return calibrated(SizeField(thin.mesh, np.exp(_in_place(thin, *means))), whole.n_triangles)
+    from .edge_means import add_edges  # compiled: for large meshes only
+
+    sums = np.zeros((thin.mesh.n_points, 4))
+    add_edges(thin.whole.points, thin.whole.topology.edges, thin.point, sums)
+    return calibrated(SizeField(thin.mesh, np.exp(_in_place(thin, sums))), thin.whole.n_triangles)
 
 
 def thin_named_size_field(thin: Thinned, values: Floats, name: str) -> SizeField:
@@ -37,8 +38,9 @@ def thin_named_size_field(thin: Thinned, values: Floats, name: str) -> SizeField
     Raises InvalidSize as that does.
     """
     log_h = log_sizes(thin.whole, values, name)
-    means = thin.means(np.arange(len(log_h)), log_h, thin.whole.points)
-    return SizeField(thin.mesh, np.exp(_in_place(thin, *means)), name)
+    values = (None, log_h, *thin.whole.points.T)
+    sums = np.column_stack([np.bincount(thin.point, each, thin.mesh.n_points) for each in values])
+    return SizeField(thin.mesh, np.exp(_in_place(thin, sums)), name)
 
 
 def whole_size_field(thin: Thinned, size: SizeField) -> SizeField:
@@ -52,11 +54,14 @@ def whole_size_field(thin: Thinned, size: SizeField) -> SizeField:
     return calibrated(SizeField(thin.whole, h, size.source), size.expected_triangles)
 
 
-def _in_place(thin: Thinned, means: Floats, way: Floats) -> Floats:
+def _in_place(thin: Thinned, sums: Floats) -> Floats:
     """Return the means moved from where they were taken to the points, and smoothed, (n_points,).
 
-    Over the same length as those of the whole mesh, REACH of its edges.
+    sums is (n_points, 4): of one for each value, of the values, and of their places. Smoothed over the same
+    length as those of the whole mesh, REACH of its edges.
     """
+    means = sums[:, 1] / sums[:, 0]
+    way = sums[:, 2:] / sums[:, :1] - thin.mesh.points
     values = means
     for _ in range(MOVES):
         values = means - np.einsum("ij,ij->i", _slope(thin.mesh, values), way)
