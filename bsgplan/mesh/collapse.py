@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from ..arrays import Bools, Floats, Wholes
+from ..arrays import Bools, Floats, Ints, Wholes
 from ..compiled import compiled, inner
 
 LONGEST = 3.2
@@ -67,8 +67,18 @@ def previous(c: int) -> int:
 
 
 @compiled
-def prepare(mesh: Corners, count: Wholes) -> None:
-    """Fill square and first; keep both ends of sides that run alike. count is room, zeros, (n_points,)."""
+def prepare(mesh: Corners, edge_sides: Ints, count: Wholes) -> None:
+    """Fill twin, square and first; keep both ends of boundary edges and of sides that run alike.
+
+    edge_sides is that of the topology, (n_edges, 2); count is room, zeros, (n_points,).
+    """
+    for k in range(len(edge_sides)):
+        c, other = edge_sides[k, 0], edge_sides[k, 1]
+        mesh.twin[c] = other
+        if other >= 0:
+            mesh.twin[other] = c
+        if other < 0 or mesh.vertex[c] == mesh.vertex[other]:
+            mesh.stays[mesh.vertex[c]] = mesh.stays[mesh.vertex[following(c)]] = True
     for c in range(len(mesh.vertex)):
         a, b = mesh.vertex[c], mesh.vertex[following(c)]
         x, y = mesh.points[b, 0] - mesh.points[a, 0], mesh.points[b, 1] - mesh.points[a, 1]
@@ -77,8 +87,6 @@ def prepare(mesh: Corners, count: Wholes) -> None:
         count[a] += 1
         count[b] += 1
         mesh.first[a] = c
-        if mesh.twin[c] >= 0 and mesh.vertex[mesh.twin[c]] == a:
-            mesh.stays[a] = mesh.stays[b] = True
     for v in range(len(count)):
         mesh.square[v] /= max(count[v], 1)
 

@@ -37,22 +37,22 @@ def thinned(mesh: Mesh) -> Thinned:
     """
     from .collapse import MOST_BESIDE, Corners, collapse_all, prepare  # compiled: for large meshes only
 
-    topology, n = mesh.topology, mesh.n_points
+    n = mesh.n_points
     short = short_type(max(mesh.triangles.size, n))
     room = np.empty((2, MOST_BESIDE), dtype=short)
     corners = Corners(
         points=mesh.points,
         square=np.zeros(n),
-        stays=topology.is_boundary.copy(),
+        stays=np.zeros(n, dtype=bool),
         vertex=mesh.triangles.ravel().astype(short),
-        twin=topology.sides_across.astype(short),
+        twin=np.empty(mesh.triangles.size, dtype=short),
         first=np.zeros(n, dtype=short),
         point=np.arange(n, dtype=short),
         triangle=np.arange(mesh.n_triangles, dtype=short),
         ring=room[0],
         corner=room[1],
     )
-    prepare(corners, np.zeros(n, dtype=short))
+    prepare(corners, mesh.topology.edge_sides, np.zeros(n, dtype=short))
     collapse_all(corners)
     kept, point = _numbered(corners.point)
     left, triangle = _numbered(corners.triangle)

@@ -105,11 +105,6 @@ class Topology:
         """Cell across each edge of each cell, (n_cells, n_corners); -1 where there is none."""
         return self._across(self.neighbours).reshape(self.cells.shape)
 
-    @property
-    def sides_across(self) -> Ints:
-        """The other side along each side of each cell, (n_cells * n_corners,); -1 where there is none."""
-        return self._across(self.inner_sides)
-
     def _across(self, pairs: Ints) -> Ints:
         """Return what lies on the other side of each side, (n_cells * n_corners,); -1 at the boundary.
 
@@ -154,7 +149,7 @@ class Topology:
         n_corners, vertex = self.cells.shape[1], self.cells.ravel()
         is_used = self.n_cells_at > 0
         fan = (np.cumsum(is_used) - 1)[vertex]
-        across = self.sides_across
+        across = self._across(self.inner_sides)
         corners = np.flatnonzero((self._n_cells_in_a_fan(across) != self.n_cells_at)[vertex])
         if len(corners):  # of pinches
             number = np.full(len(vertex), -1)
