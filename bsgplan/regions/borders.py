@@ -1,7 +1,7 @@
 """Straighten the borders of region labels, one integer a triangle.
 
 Threshold dynamics [Merriman, Bence & Osher]: the indicator of each label is averaged over the triangles
-around the vertices, four times, and each triangle takes the label that is strongest there; ties go to the
+around the vertices, over four edges, and each triangle takes the label that is strongest there; ties go to the
 smaller label. All work is done within a few rings of the borders, and again only where something changed.
 Where two labels meet, the averages of a number for each label and of its square tell which the other is
 and its share; only around junctions of three are there indicators of all.
@@ -20,11 +20,9 @@ from ..mesh import Mesh
 from ..mesh.operators import cotangents
 
 AVERAGES = 4
-"""Averages, and so rings, over which a label is felt."""
-
-REACH = 3
-"""Rings around a border in which triangles may change sides: beyond, less than half of all `AVERAGES` long
-walks come to the other side, as each step would have to lead straight towards it."""
+"""Averages, and so rings, over which a label is felt in a mesh whose edges are its sizes; triangles may change
+sides in one ring fewer: beyond, less than half of all so long walks come to the other side, as each step would
+have to lead straight towards it."""
 
 GOLDEN = (np.sqrt(5) - 1) / 2
 """Label k has the number k + (k GOLDEN mod 1) / 2: no mean of some is one more, and all are .5 apart."""
@@ -43,7 +41,13 @@ MOST_TURNS = 20
 
 
 def smooth_borders(
-    mesh: Mesh, label: Ints, corner_shares: Floats, *, rounds: int, settled: Ints | None = None
+    mesh: Mesh,
+    label: Ints,
+    corner_shares: Floats,
+    *,
+    rounds: int,
+    averages: int = AVERAGES,
+    settled: Ints | None = None,
 ) -> Ints:
     """Return labels with their borders straightened, (n_triangles,); corner_shares as below.
 
@@ -58,7 +62,7 @@ def smooth_borders(
     for _ in range(rounds):
         if not len(changed):
             break
-        patch = _Patch.around(mesh, changed, REACH, corner_shares)
+        patch = _Patch.around(mesh, changed, averages - 1, corner_shares, averages)
         near = patch.triangles[patch.near]
         strongest = _strongest(mesh, label, patch, corner_shares)
         changed = near[strongest != label[near]]
@@ -108,7 +112,7 @@ def _rings(mesh: Mesh, triangles: Ints, most: int) -> NDArray[np.int8]:
 
 @dataclass(frozen=True, eq=False)
 class _Patch:
-    """Some triangles and all that lie within `AVERAGES` rings of vertices around them."""
+    """Some triangles and all that lie within as many rings of vertices around them as are averaged."""
 
     triangles: Ints
     near: Ints
@@ -117,18 +121,20 @@ class _Patch:
     """Local number of each corner, (3, n)."""
     shares: Floats
     """Weight of the triangle in the average around each corner, (3, n)."""
+    averages: int
+    """How many averages are taken."""
 
     @classmethod
-    def around(cls, mesh: Mesh, triangles: Ints, rings: int, shares: Floats) -> _Patch:
+    def around(cls, mesh: Mesh, triangles: Ints, rings: int, shares: Floats, averages: int) -> _Patch:
         """Return the patch of the triangles within so many rings around some."""
-        ring = _rings(mesh, triangles, rings + AVERAGES)
-        wide = np.flatnonzero(ring <= rings + AVERAGES)
+        ring = _rings(mesh, triangles, rings + averages)
+        wide = np.flatnonzero(ring <= rings + averages)
         corners = mesh.triangles.take(wide, axis=0).T
         is_used = np.zeros(mesh.n_points, dtype=bool)
         is_used[corners] = True
         number = np.cumsum(is_used) - 1
         near = np.flatnonzero(ring[wide] <= rings)
-        return cls(wide, near, number[corners], np.ascontiguousarray(shares.take(wide, axis=0).T))
+        return cls(wide, near, number[corners], np.ascontiguousarray(shares.take(wide, axis=0).T), averages)
 
     @property
     def n_vertices(self) -> int:
@@ -137,7 +143,7 @@ class _Patch:
     def averaged(self, values: Floats) -> Floats:
         """Return the averages of one value a triangle, (n,)."""
         n, (a, b, c) = self.n_vertices, self.corners
-        for _ in range(AVERAGES):
+        for _ in range(self.averages):
             at_vertices = sums_by(self.corners, self.shares * values, n)
             values = at_vertices[a] + at_vertices[b] + at_vertices[c]
         return values
@@ -166,7 +172,7 @@ def _strongest(mesh: Mesh, label: Ints, patch: _Patch, shares: Floats) -> Ints:
     many = felt[~is_clear]
     if len(many):
         some = patch.triangles[patch.near[many]]
-        result[many] = _strongest_of_many(label, _Patch.around(mesh, some, 0, shares))
+        result[many] = _strongest_of_many(label, _Patch.around(mesh, some, 0, shares, patch.averages))
     return result
 
 
@@ -178,7 +184,7 @@ def _strongest_of_many(label: Ints, patch: _Patch) -> Ints:
     start = np.arange(0, 3 * n + 1, 3)
     spread = csr_array((np.ones(3 * n), patch.corners.T.ravel(), start), shape=(n, patch.n_vertices))
     gather = csr_array((patch.shares.T.ravel(), spread.indices, start), shape=spread.shape).T.tocsr()
-    for _ in range(AVERAGES):
+    for _ in range(patch.averages):
         share = csr_array(spread @ csr_array(gather @ share))
     return names[_row_argmax(csr_array(share[patch.near]))]
 

@@ -13,7 +13,7 @@ from ..arrays import Bools, Floats, Ints, sums_by
 from ..mesh import Mesh
 from ..sizing import SizeField
 from . import labels
-from .borders import corner_shares, smooth_borders
+from .borders import AVERAGES, corner_shares, smooth_borders
 from .plateau import PLATEAU, plateaus, spread_of
 from .watershed import basins
 
@@ -51,14 +51,22 @@ def segment(
         width = LEAST_WIDTH * side
         return labels.merge_small(mesh, label, log_h, weight, kind=is_uniform, least=least, width=width)
 
-    shares = corner_shares(mesh)
+    shares, averages = corner_shares(mesh), _edges_in(size, AVERAGES)
     settled = None
     for _ in range(3):
         label = labels.finest_first(merged(label), log_h)
-        settled = smooth_borders(mesh, label, shares, rounds=18, settled=settled)
+        settled = smooth_borders(
+            mesh, label, shares, rounds=18, averages=averages, settled=settled
+        )
         label = labels.finest_first(labels.connected(mesh, settled), log_h)
     label = labels.finest_first(merged(label), log_h)
     return label, _level_share(label, weight, is_zone, log_h, persistence) >= LEVEL_SHARE
+
+
+def _edges_in(size: SizeField, n_sizes: int) -> int:
+    """Return how many edges of the mesh make up so many sizes, two at least: fewer where it was thinned."""
+    edge = np.sqrt(max(size.expected_triangles / size.mesh.n_triangles, 1.0))
+    return max(2, min(n_sizes, round(n_sizes / edge)))
 
 
 def _zone_share(label: Ints, weight: Floats, is_zone: Bools) -> Floats:
