@@ -32,6 +32,7 @@ from .planning import Plan, check_block_size, estimate
 from .planning.inverse import within
 from .planning.totals import GRADIENT_LIMIT
 from .regions import Regions, find_regions, measure_regions
+from .regions.borders import AVERAGES
 from .regions.labels import connected
 from .regions.plateau import PLATEAU
 from .regions.segmentation import PERSISTENCE
@@ -65,9 +66,10 @@ def plan_blocks(
 ) -> PlannedMesh:
     """Return a mesh file with its plans, one a block size.
 
-    A large mesh is planned on a thinned one, see `thin_for`, unless every_triangle is asked for. With n_blocks there is one plan, at the smallest block size that needs no more blocks than that. size
-    names a point or cell array, of size_file if that is given; region is a polygon in the coordinates of the
-    file, cut out first: each of its connected pieces is one region.
+    A large mesh is planned on a thinned one, see `thin_for`, unless every_triangle is asked for. With
+    n_blocks there is one plan, at the smallest block size that needs no more blocks than that. size names a
+    point or cell array, of size_file if that is given; region is a polygon in the coordinates of the file,
+    cut out first: each of its connected pieces is one region.
     Raises what its steps raise; see `estimate`, `find_regions` and `within`. Raises InvalidMesh for quads.
     """
     check_triangles_only(mesh_file)
@@ -107,8 +109,10 @@ def plan_sizes(
 ) -> PlannedMesh:
     """Return a mesh file with its plans where its size field is known; see `plan_blocks`.
 
-    thin is the thinned mesh where the field is that of one; is_drawn says that the file is what a user drew: each connected piece is one region then.
+    thin is the thinned mesh where the field is that of one; is_drawn says that the file is what a user drew:
+    each connected piece is one region then.
     """
+    averages = AVERAGES if thin is None else max(2, round(AVERAGES / thin.edge_ratio))
 
     def drawn(n: int) -> Regions:
         label = connected(field.mesh, np.zeros(field.mesh.n_triangles, dtype=np.int64))
@@ -121,7 +125,9 @@ def plan_sizes(
         if is_drawn:
             regions = drawn(n)
         else:
-            regions = find_regions(field, tris_per_block=n, persistence=persistence, plateau=plateau)
+            regions = find_regions(
+                field, tris_per_block=n, persistence=persistence, plateau=plateau, averages=averages
+            )
         return estimate(
             regions,
             tris_per_block=n,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -38,13 +38,27 @@ class PlannedMesh:
     def tables(self, *, all_candidates: bool = False) -> list[Table]:
         """Return the tables of the plan, or one table over the block sizes where there are several."""
         if len(self.plans) > 1:
-            return [plan_tables.block_sizes_table(self.plans)]
-        return plan_tables.tables(self.plan, all_candidates=all_candidates)
+            first, *others = [plan_tables.block_sizes_table(self.plans)]
+        else:
+            first, *others = plan_tables.tables(self.plan, all_candidates=all_candidates)
+        return [replace(first, notes=(*first.notes, *self._thinning())), *others]
+
+    def _thinning(self) -> tuple[str, ...]:
+        n_triangles = self.mesh_file.mesh.n_triangles
+        if self.planned_on == n_triangles:
+            return ()
+        return (
+            f"planned on {self.planned_on} of {n_triangles} triangles, thinned where edges stay short; "
+            "--every-triangle plans on all",
+        )
 
     def document(self) -> dict[str, Any]:
         """Return the JSON document `bsgplan.estimate/1`."""
         return plan_document.estimate_document(
-            mesh_document(self.mesh_file), self.plans, scale=self.mesh_file.scale
+            mesh_document(self.mesh_file),
+            self.plans,
+            planned_on=self.planned_on,
+            scale=self.mesh_file.scale,
         )
 
     def save(self, path: str | os.PathLike[str]) -> None:

@@ -28,6 +28,7 @@ def estimate(
     persistence: float = 1.3,
     plateau: float = 0.05,
     gradient_limit: float = 0.6,
+    every_triangle: Annotated[bool, Parameter(negative=(), show_default=False)] = False,
     candidates: Annotated[bool, Parameter(negative=(), show_default=False)] = False,
     json: Annotated[bool, Parameter(negative=(), show_default=False)] = False,
     save: Path | None = None,
@@ -63,6 +64,8 @@ def estimate(
         Where |grad h| is under this the size counts as constant: a uniform zone.
     gradient_limit
         Bound on the gradient of the block size in the gradient-limited count.
+    every_triangle
+        Plan a mesh of 200 000 triangles or more on all of them, not on a thinned one: three times the time.
     candidates
         Show the candidates of every region.
     json
@@ -102,6 +105,7 @@ def estimate(
             persistence=log(persistence),
             plateau=plateau,
             gradient_limit=gradient_limit,
+            every_triangle=every_triangle,
             progress=progress,
         )
         progress("writing")

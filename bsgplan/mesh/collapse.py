@@ -112,7 +112,7 @@ def collapse_all(mesh: Corners) -> None:
 
 @inner
 def _gather(mesh: Corners, v: int) -> int:
-    """Fill ring and corner counter-clockwise around a closed star; return its size, 0 where it is too large."""
+    """Fill ring and corner counter-clockwise around a closed star; return its size, 0 where too large."""
     c = start = mesh.first[v]
     n = 0
     while n < MOST_BESIDE:

@@ -5,8 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from functools import cached_property
 
-import numpy as np
-
 from ..arrays import Floats, Ints, frozen_floats, frozen_ints
 from . import quality
 from .check import check_mesh

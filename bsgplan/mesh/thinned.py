@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..arrays import Ints, short_type
+from ..arrays import Ints, Wholes, short_type
 from .mesh import Mesh
 
 
@@ -28,6 +28,11 @@ class Thinned:
     """The point left that each point of the whole was merged into, (whole.n_points,)."""
     triangle: Ints = field(repr=False)
     """The triangle left that each triangle of the whole was merged into, (whole.n_triangles,)."""
+
+    @property
+    def edge_ratio(self) -> float:
+        """How many edges of the whole mesh one of the thinned spans."""
+        return float(np.sqrt(self.whole.n_triangles / self.mesh.n_triangles))
 
 
 def thinned(mesh: Mesh) -> Thinned:
@@ -60,7 +65,7 @@ def thinned(mesh: Mesh) -> Thinned:
     return Thinned(mesh, Mesh(mesh.points[kept], triangles), kept, point, triangle)
 
 
-def _numbered(into: Ints) -> tuple[Ints, Ints]:
+def _numbered(into: Wholes) -> tuple[Ints, Ints]:
     """Return what was merged into itself, (n_left,), and the number among these that each was merged into.
 
     >>> [part.tolist() for part in _numbered(np.array([1, 1, 2, 2]))]

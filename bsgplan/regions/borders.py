@@ -1,7 +1,7 @@
 """Straighten the borders of region labels, one integer a triangle.
 
 Threshold dynamics [Merriman, Bence & Osher]: the indicator of each label is averaged over the triangles
-around the vertices, over four edges, and each triangle takes the label that is strongest there; ties go to the
+around the vertices, a few times, and each triangle takes the label that is strongest there; ties go to the
 smaller label. All work is done within a few rings of the borders, and again only where something changed.
 Where two labels meet, the averages of a number for each label and of its square tell which the other is
 and its share; only around junctions of three are there indicators of all.
@@ -20,9 +20,10 @@ from ..mesh import Mesh
 from ..mesh.operators import cotangents
 
 AVERAGES = 4
-"""Averages, and so rings, over which a label is felt in a mesh whose edges are its sizes; triangles may change
-sides in one ring fewer: beyond, less than half of all so long walks come to the other side, as each step would
-have to lead straight towards it."""
+"""Averages, and so rings, over which a label is felt in a mesh whose edges are its sizes.
+
+Triangles may change sides in one ring fewer: beyond, less than half of all so long walks come to the other
+side, as each step would have to lead straight towards it."""
 
 GOLDEN = (np.sqrt(5) - 1) / 2
 """Label k has the number k + (k GOLDEN mod 1) / 2: no mean of some is one more, and all are .5 apart."""

@@ -9,6 +9,7 @@ from ..mesh import Mesh
 from ..sizing import SizeField
 from ..sizing.charge import region_charges
 from .bins import by_level
+from .borders import AVERAGES
 from .plateau import PLATEAU
 from .profile import profiles
 from .region import TRANSITION, UNIFORM, Region, Regions, inner_irregularity
@@ -20,10 +21,17 @@ PROBES = (0.35, 0.5, 0.65)
 
 
 def find_regions(
-    size: SizeField, *, tris_per_block: int = 16, persistence: float = PERSISTENCE, plateau: float = PLATEAU
+    size: SizeField,
+    *,
+    tris_per_block: int = 16,
+    persistence: float = PERSISTENCE,
+    plateau: float = PLATEAU,
+    averages: int = AVERAGES,
 ) -> Regions:
     """Return the monotone transition regions and uniform zones of a size field, as `segment` cuts them."""
-    label, is_uniform = segment(size, tris_per_block=tris_per_block, persistence=persistence, plateau=plateau)
+    label, is_uniform = segment(
+        size, tris_per_block=tris_per_block, persistence=persistence, plateau=plateau, averages=averages
+    )
     weight = sums_by(label, size.triangle_weights, len(is_uniform))
     is_uniform = is_uniform | (weight < tris_per_block)  # a component smaller than a block is no transition
     return measure_regions(size, label, is_uniform, persistence=persistence)

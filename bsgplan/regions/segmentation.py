@@ -32,12 +32,17 @@ LEAST_WIDTH = 0.5
 
 
 def segment(
-    size: SizeField, *, tris_per_block: int = 16, persistence: float = PERSISTENCE, plateau: float = PLATEAU
+    size: SizeField,
+    *,
+    tris_per_block: int = 16,
+    persistence: float = PERSISTENCE,
+    plateau: float = PLATEAU,
+    averages: int = AVERAGES,
 ) -> tuple[Ints, Bools]:
     """Return the region of each triangle, (n_triangles,), and whether each region is a uniform zone.
 
     Regions are edge-connected and numbered from 0, finest first; persistence is in log size, plateau a
-    bound on |grad h|.
+    bound on |grad h|, averages the rings over which borders are smoothed.
     """
     mesh, side = size.mesh, np.sqrt(tris_per_block)
     log_h, weight = size.triangle_log_h, size.triangle_weights
@@ -51,22 +56,14 @@ def segment(
         width = LEAST_WIDTH * side
         return labels.merge_small(mesh, label, log_h, weight, kind=is_uniform, least=least, width=width)
 
-    shares, averages = corner_shares(mesh), _edges_in(size, AVERAGES)
+    shares = corner_shares(mesh)
     settled = None
     for _ in range(3):
         label = labels.finest_first(merged(label), log_h)
-        settled = smooth_borders(
-            mesh, label, shares, rounds=18, averages=averages, settled=settled
-        )
+        settled = smooth_borders(mesh, label, shares, rounds=18, averages=averages, settled=settled)
         label = labels.finest_first(labels.connected(mesh, settled), log_h)
     label = labels.finest_first(merged(label), log_h)
     return label, _level_share(label, weight, is_zone, log_h, persistence) >= LEVEL_SHARE
-
-
-def _edges_in(size: SizeField, n_sizes: int) -> int:
-    """Return how many edges of the mesh make up so many sizes, two at least: fewer where it was thinned."""
-    edge = np.sqrt(max(size.expected_triangles / size.mesh.n_triangles, 1.0))
-    return max(2, min(n_sizes, round(n_sizes / edge)))
 
 
 def _zone_share(label: Ints, weight: Floats, is_zone: Bools) -> Floats:

@@ -17,14 +17,15 @@ SCHEMA = "bsgplan.estimate/1"
 
 
 def estimate_document(
-    mesh: Mapping[str, Any], plans: Sequence[Plan], *, scale: Floats | None = None
+    mesh: Mapping[str, Any], plans: Sequence[Plan], *, planned_on: int, scale: Floats | None = None
 ) -> dict[str, Any]:
     """Return the document of one plan, or of several under "plans".
 
-    mesh is the document of the mesh; scale is the plane's length per true length at each point,
-    (n_points,), of a projected mesh: sizes and areas are then true ones.
+    mesh is the document of the mesh, planned_on the triangles of the one planned on; scale is the
+    plane's length per true length at each point, (n_points,), of a projected mesh: sizes and areas are then
+    true ones.
     """
-    head = {"schema": SCHEMA, "mesh": dict(mesh), "size_field": _size_document(plans[0], scale)}
+    head = {"schema": SCHEMA, "mesh": dict(mesh), "size_field": _size_document(plans[0], planned_on, scale)}
     bodies = [plan_document(plan, scale=scale) for plan in plans]
     return head | bodies[0] if len(bodies) == 1 else head | {"plans": bodies}
 
@@ -42,7 +43,7 @@ def plan_document(plan: Plan, *, scale: Floats | None = None) -> dict[str, Any]:
     }
 
 
-def _size_document(plan: Plan, scale: Floats | None) -> dict[str, Any]:
+def _size_document(plan: Plan, planned_on: int, scale: Floats | None) -> dict[str, Any]:
     size = plan.regions.size
     h = size.h if scale is None else size.h / scale
     return {
@@ -50,6 +51,7 @@ def _size_document(plan: Plan, scale: Floats | None) -> dict[str, Any]:
         "h_min": float(h.min()),
         "h_max": float(h.max()),
         "expected_triangles": size.expected_triangles,
+        "planned_on_triangles": planned_on,
     }
 
 

@@ -70,12 +70,15 @@ def fit_edges(mesh: Mesh, edge_values: Floats, reach: float) -> Floats:
     return level + _regularised(mesh, normal, degree / 4, total / 2, total / degree, reach)
 
 
-def smooth(mesh: Mesh, values: Floats, reach: float) -> Floats:
-    """Return vertex values smoothed over reach local edge lengths, (n_points,), linear fields unchanged."""
+def smooth(mesh: Mesh, values: Floats, reach: float, weights: Floats | None = None) -> Floats:
+    """Return vertex values smoothed over reach local edge lengths, (n_points,), linear fields unchanged.
+
+    weights, (n_points,), say how much each value counts; only their ratios matter.
+    """
     level = values.mean()  # see `fit_edges`
     v = values - level
-    three = np.full(mesh.n_points, 3.0)
-    return level + _regularised(mesh, lambda u: 3 * u, three, 3 * v, v, reach)
+    w = np.full(mesh.n_points, 3.0) if weights is None else weights * (3 / np.median(weights))
+    return level + _regularised(mesh, lambda u: w * u, w, w * v, v, reach)
 
 
 def _regularised(

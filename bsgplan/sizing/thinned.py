@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..arrays import Floats
+from ..arrays import Floats, sums_by
 from ..mesh import Mesh
 from ..mesh.operators import gradient, to_vertices
 from ..mesh.thinned import Thinned
@@ -16,7 +16,7 @@ from .field import SizeField
 from .measure import REACH, calibrated, log_sizes
 from .smoothing import smooth
 
-MOVES = 2
+MOVES = 3
 """Times that the slope is taken to move the means: the first is off where the ways to them differ."""
 
 
@@ -38,8 +38,10 @@ def thin_named_size_field(thin: Thinned, values: Floats, name: str) -> SizeField
     Raises InvalidSize as that does.
     """
     log_h = log_sizes(thin.whole, values, name)
-    values = (None, log_h, *thin.whole.points.T)
-    sums = np.column_stack([np.bincount(thin.point, each, thin.mesh.n_points) for each in values])
+    n = thin.mesh.n_points
+    sums = np.column_stack(
+        [sums_by(thin.point, each, n) for each in (np.ones_like(log_h), log_h, *thin.whole.points.T)]
+    )
     return SizeField(thin.mesh, np.exp(_in_place(thin, sums)), name)
 
 
@@ -58,14 +60,14 @@ def _in_place(thin: Thinned, sums: Floats) -> Floats:
     """Return the means moved from where they were taken to the points, and smoothed, (n_points,).
 
     sums is (n_points, 4): of one for each value, of the values, and of their places. Smoothed over the same
-    length as those of the whole mesh, REACH of its edges.
+    length as those of the whole mesh, REACH of its edges, each as much as it stands for.
     """
     means = sums[:, 1] / sums[:, 0]
     way = sums[:, 2:] / sums[:, :1] - thin.mesh.points
-    values = means
+    values, reach = means, REACH / thin.edge_ratio
     for _ in range(MOVES):
         values = means - np.einsum("ij,ij->i", _slope(thin.mesh, values), way)
-    return smooth(thin.mesh, values, REACH * np.sqrt(thin.mesh.n_triangles / thin.whole.n_triangles))
+    return smooth(thin.mesh, values, reach, sums[:, 0])
 
 
 def _slope(mesh: Mesh, values: Floats) -> Floats:

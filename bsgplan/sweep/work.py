@@ -12,7 +12,8 @@ from typing import Any
 from ..errors import BsgplanError
 from ..io import MeshFile, read, read_lonlat
 from ..io.projection import warn_of_degrees
-from ..pipeline import check_triangles_only, plan_sizes, size_of
+from ..mesh.thinned import Thinned
+from ..pipeline import check_triangles_only, plan_sizes, size_of, thin_for
 from ..planning import Plan
 from ..sizing import SizeField
 from .job import Job, Row, shortened
@@ -23,10 +24,11 @@ def plan_rows(job: Job) -> list[Row]:
     with _Warnings() as warnings:
         try:
             mesh_file = _open(job)
-            size = size_of(mesh_file, job.options.size, job.size_path)
+            thin = thin_for(mesh_file, job.block_sizes)
+            size = size_of(mesh_file, job.options.size, job.size_path, thin)
         except Exception as error:  # any mesh, hostile ones too: the sweep goes on
             return job.failed(_reason(error, job))
-        return [_planned(job, mesh_file, size, n, warnings) for n in job.block_sizes]
+        return [_planned(job, mesh_file, size, thin, n, warnings) for n in job.block_sizes]
 
 
 def _open(job: Job) -> MeshFile:
@@ -37,13 +39,21 @@ def _open(job: Job) -> MeshFile:
     return mesh_file
 
 
-def _planned(job: Job, mesh_file: MeshFile, size: SizeField, tris_per_block: int, warned: _Warnings) -> Row:
+def _planned(
+    job: Job,
+    mesh_file: MeshFile,
+    size: SizeField,
+    thin: Thinned | None,
+    tris_per_block: int,
+    warned: _Warnings,
+) -> Row:
     start, before = time.process_time(), len(warned.lines)
     options = job.options
     try:
         plan = plan_sizes(
             mesh_file,
             size,
+            thin=thin,
             tris_per_block=tris_per_block,
             objective=options.objective,
             persistence=log(options.persistence),

@@ -39,7 +39,7 @@ def test_the_strongest_label_is_that_of_the_slow_twin(seed: int, n_labels: int, 
     label = np.argmin(away + noise, axis=1)
     share = shares_of_labels(mesh, label)
     shares = corner_shares(mesh)
-    patch = _Patch.around(mesh, np.arange(mesh.n_triangles), 0, shares)
+    patch = _Patch.around(mesh, np.arange(mesh.n_triangles), 0, shares, AVERAGES)
     found = _strongest(mesh, label, patch, shares)
     best = share.max(axis=1)
     assert share[np.arange(len(found)), found] == pytest.approx(best, abs=1e-8)

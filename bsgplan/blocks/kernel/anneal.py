@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...compiled import compiled, inner, whole
 from ..kinds import CORNER, HALF_EDGE, NO_CURVE
 from .chance import below, uniform
 from .collapse import collapse, kept_end
-from ...compiled import compiled, inner, whole
 from .energy import is_upright
 from .fan import corner_of, fan_of, side_to
 from .flip import can_flip, flip, flip_gain

@@ -7,8 +7,8 @@ itself costs by how much.
 
 from __future__ import annotations
 
-from ..kinds import JUNCTION
 from ...compiled import inner
+from ..kinds import JUNCTION
 from .shape import inverse_quality
 from .size_at import polyline_place
 from .state import ARC, KIND, PARTS, State

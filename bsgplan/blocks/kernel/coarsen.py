@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .collapse import collapse, kept_end
 from ...compiled import compiled, inner
+from .collapse import collapse, kept_end
 from .energy import is_upright, twice_area
 from .fan import corner_of, fan_of
 from .journal import begin, commit, rollback

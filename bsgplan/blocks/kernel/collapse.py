@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from ...compiled import inner
 from ..kinds import CORNER, INTERIOR, NO_CURVE, SLIDING
 from .bend import side_arcs
-from ...compiled import inner
 from .energy import refresh_triangle, set_valence
 from .fan import corner_of, fan_of, n_common, side_to
 from .flip import MOST

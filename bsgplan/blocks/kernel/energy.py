@@ -10,9 +10,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...compiled import inner
 from ..kinds import CORNER, HALF_EDGE, JUNCTION
 from .bend import bend
-from ...compiled import inner
 from .journal import keep_triangle, keep_vertex
 from .shape import SHAPE, soft
 from .state import (

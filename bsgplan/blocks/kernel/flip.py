@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ..kinds import CORNER, INTERIOR, NO_CURVE
 from ...compiled import inner
+from ..kinds import CORNER, INTERIOR, NO_CURVE
 from .energy import cost_of_valence, off_goal, refresh_triangle, set_valence
 from .fan import are_joined, side_to
 from .rows import FREE, anchor, put_triangle, relink

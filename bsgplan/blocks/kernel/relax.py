@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..kinds import INTERIOR, JUNCTION, SLIDING
 from ...compiled import inner
+from ..kinds import INTERIOR, JUNCTION, SLIDING
 from .energy import WANTED, refresh_triangle, triangle_energy, twice_area
 from .fan import corner_of, fan_of
 from .journal import keep_vertex

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ..kinds import NO_CURVE
 from ...compiled import inner, whole
+from ..kinds import NO_CURVE
 from .fan import side_to
 from .journal import keep_triangle, keep_vertex
 from .state import TRIANGLE, State

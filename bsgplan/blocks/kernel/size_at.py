@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..kinds import SLIDING
 from ...compiled import inner
+from ..kinds import SLIDING
 from .state import ARC, CURVE, HINT, KIND, OFFSET, State, U, W
 from .walk import walk
 

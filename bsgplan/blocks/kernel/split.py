@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from ...compiled import inner
 from ..kinds import FROZEN_SIDE, INTERIOR, SLIDING
 from .bend import side_arcs
-from ...compiled import inner
 from .energy import refresh_triangle, set_valence
 from .fan import side_to
 from .flip import MOST

@@ -12,9 +12,9 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 
 from ...arrays import Floats, Ints
+from ...compiled import whole
 from ..corners import boundary_goals
 from ..domain import Domain
-from ...compiled import whole
 
 TRIANGLE, VALENCE, KIND, CURVE, HINT = range(5)
 """Columns of `vertex`: a triangle at it, number of edges, kind, curve (or -1), domain triangle near it."""

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..kinds import CORNER, SLIDING
 from ...compiled import compiled, inner
+from ..kinds import CORNER, SLIDING
 from .energy import is_upright, triangle_energy, valence_energy
 from .flip import can_flip, flip
 from .journal import begin, commit, rollback
