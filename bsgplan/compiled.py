@@ -1,4 +1,6 @@
-"""The two decorators of compiled code: what Python calls, and what only other compiled code calls.
+"""The two decorators of compiled code, and the one import of numba: half a second, for those who need it.
+
+One is for what Python calls, the other for what only other compiled code calls.
 
 Neither counts references: a state outlives every call, and no kernel makes an array. An inner function has
 no entry from Python and no cache of its own, it lies in those of its callers: that halves the compilation.

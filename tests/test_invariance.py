@@ -13,6 +13,7 @@ from scipy.spatial.transform import Rotation
 from strategies import hilly
 
 import bsgplan
+from bsgplan import pipeline
 from bsgplan.io import MeshFile
 from bsgplan.mesh import Mesh
 from bsgplan.pipeline import plan_blocks
@@ -66,6 +67,18 @@ def test_real_meshes_keep_their_plans(meshes, name):
     plan = plan_blocks(mesh_file).plan
     for points in similar(mesh.points, float(np.median(mesh.edge_lengths))).values():
         assert_is_same(plan_blocks(moved(mesh_file, points)).plan, plan)
+
+
+@pytest.mark.parametrize("name", REAL[:3])
+def test_real_meshes_keep_their_plans_where_they_are_thinned(meshes, name, monkeypatch):
+    monkeypatch.setattr(pipeline, "LARGE", 1)
+    mesh_file = bsgplan.read(meshes / name)
+    mesh = mesh_file.mesh
+    result = plan_blocks(mesh_file)
+    assert result.planned_on < mesh.n_triangles / 2
+    places = similar(mesh.points, float(np.median(mesh.edge_lengths)))
+    for where in ("tiny", "far"):
+        assert_is_same(plan_blocks(moved(mesh_file, places[where])).plan, result.plan)
 
 
 @settings(max_examples=10)

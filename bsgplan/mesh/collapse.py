@@ -25,6 +25,9 @@ MOST_BESIDE = 16
 PASSES = 3
 """Times that every vertex is tried: what is too long in one place gives way in another."""
 
+TIE = 1e-6
+"""Mean ratios closer than this are equal, and the first is taken: a turned mesh is rounded otherwise."""
+
 MEAN_RATIO = 2 * 3**0.5
 """Mean ratio: this times twice the area over the sum of the squared edges."""
 
@@ -130,8 +133,8 @@ def _best_place(mesh: Corners, n: int) -> int:
     """Return the place in the ring from which the worst triangle of the star is best, -1 for none."""
     best, at = LEAST_QUALITY, -1
     for j in range(n):
-        quality = _worst_from(mesh, j, n, best)
-        if quality > best:
+        quality = _worst_from(mesh, j, n, best + TIE)
+        if quality > best + TIE:
             best, at = quality, j
     return at
 

@@ -12,6 +12,7 @@ import numpy as np
 from bsgplan.io.file import MeshFile, RawMesh, assemble
 from bsgplan.mesh.mesh import Mesh
 from bsgplan.pipeline import plan_blocks
+from bsgplan.result import PlannedMesh
 
 from .cost import Cost, cost_of, cpu_of
 from .meshes import archipelago, stripes
@@ -49,6 +50,25 @@ def rows() -> Iterator[Row]:
             "x",
             below=1 if is_bound else None,
         )
+        if result.planned_on < mesh.n_triangles:
+            yield from _thinned(result, fresh(mesh), name)
+
+
+def _thinned(result: PlannedMesh, mesh_file: MeshFile, name: str) -> Iterator[Row]:
+    """Compare a plan on a thinned mesh with that on every triangle."""
+    whole, planning = cpu_of(lambda: plan_blocks(mesh_file, every_triangle=True))
+    n_triangles = whole.planned_on
+    yield Row(f"{name}: triangles, all over those planned on", n_triangles / result.planned_on, "x")
+    yield Row(f"{name}: planning on all", planning / n_triangles * 1e6, "s CPU a million")
+    for what, few, all_of_them in (
+        ("blocks", result.plan.n_blocks, whole.plan.n_blocks),
+        (
+            "blocks by the size gradient",
+            result.plan.drivers.blocks_gradient_limited,
+            whole.plan.drivers.blocks_gradient_limited,
+        ),
+    ):
+        yield Row(f"{name}: {what}, thinned over all, off by", abs(few / all_of_them - 1), below=0.05)
 
 
 def _costs(whole: Cost, mesh: Mesh, name: str) -> Iterator[Row]:

@@ -1,1 +1,1 @@
-"""The compiled loops of the layout: numba is imported in here only."""
+"""The compiled loops of the layout."""
