@@ -38,7 +38,7 @@ class Corners(NamedTuple):
     points: Floats
     """Coordinates, (n_points, 2)."""
     square: Floats
-    """Mean squared length of the edges at each point, (n_points,)."""
+    """Mean squared edge at each point, (n_points,); 0 at pinches and folds, where no new edge may end."""
     stays: Bools
     """Points that are not merged, (n_points,)."""
     vertex: Wholes
@@ -70,18 +70,23 @@ def previous(c: int) -> int:
 
 
 @compiled
-def prepare(mesh: Corners, edge_sides: Ints, count: Wholes) -> None:
+def prepare(mesh: Corners, edge_sides: Ints, count: Wholes, gaps: Wholes) -> None:
     """Fill twin, square and first; keep both ends of boundary edges and of sides that run alike.
 
-    edge_sides is that of the topology, (n_edges, 2); count is room, zeros, (n_points,).
+    edge_sides is that of the topology, (n_edges, 2); count and gaps are room, zeros, (n_points,).
     """
     for k in range(len(edge_sides)):
         c, other = edge_sides[k, 0], edge_sides[k, 1]
         mesh.twin[c] = other
         if other >= 0:
             mesh.twin[other] = c
-        if other < 0 or mesh.vertex[c] == mesh.vertex[other]:
-            mesh.stays[mesh.vertex[c]] = mesh.stays[mesh.vertex[following(c)]] = True
+        a, b = mesh.vertex[c], mesh.vertex[following(c)]
+        if other < 0:
+            gaps[a] += 1
+            mesh.stays[a] = mesh.stays[b] = True
+        elif mesh.vertex[other] == a:
+            gaps[a] = gaps[b] = 2
+            mesh.stays[a] = mesh.stays[b] = True
     for c in range(len(mesh.vertex)):
         a, b = mesh.vertex[c], mesh.vertex[following(c)]
         x, y = mesh.points[b, 0] - mesh.points[a, 0], mesh.points[b, 1] - mesh.points[a, 1]
@@ -91,7 +96,7 @@ def prepare(mesh: Corners, edge_sides: Ints, count: Wholes) -> None:
         count[b] += 1
         mesh.first[a] = c
     for v in range(len(count)):
-        mesh.square[v] /= max(count[v], 1)
+        mesh.square[v] = mesh.square[v] / max(count[v], 1) if gaps[v] < 2 else 0.0
 
 
 @compiled
@@ -103,7 +108,7 @@ def collapse_all(mesh: Corners) -> None:
                 continue
             n = _gather(mesh, v)
             at = _best_place(mesh, n)
-            if at >= 0 and _common_neighbours(mesh, mesh.ring[at], n) == 2:
+            if at >= 0 and (n == 3 or _common_neighbours(mesh, mesh.ring[at], n) == 2):
                 _merge(mesh, v, at, n)
     for into in (mesh.point, mesh.triangle):
         for k in range(len(into)):
@@ -171,7 +176,10 @@ def _worst_from(mesh: Corners, j: int, n: int, enough: float) -> float:
 
 @inner
 def _common_neighbours(mesh: Corners, u: int, n: int) -> int:
-    """Return how many points of the ring are joined to u: two, unless a merge would glue edges together."""
+    """Return how many points of the ring are joined to u: two, unless a merge would glue edges together.
+
+    u has one fan, for no new edge may end at another.
+    """
     found = 0
     c = start = mesh.first[u]
     while True:

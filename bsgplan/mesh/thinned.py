@@ -57,7 +57,7 @@ def thinned(mesh: Mesh) -> Thinned:
         ring=room[0],
         corner=room[1],
     )
-    prepare(corners, mesh.topology.edge_sides, np.zeros(n, dtype=short))
+    prepare(corners, mesh.topology.edge_sides, *np.zeros((2, n), dtype=short))
     collapse_all(corners)
     kept, point = _numbered(corners.point)
     left, triangle = _numbered(corners.triangle)

@@ -104,3 +104,24 @@ def test_numbering_changes_which_points_stay_but_not_how_many(seed: int) -> None
     points[order] = mesh.points
     again = thinned(Mesh(points, order[mesh.triangles]))
     assert again.mesh.n_triangles == pytest.approx(thinned(mesh).mesh.n_triangles, rel=0.25)
+
+
+@given(st.integers(0, 2**32 - 1), st.integers(1, 3))
+@settings(max_examples=60)
+def test_any_pile_of_sheets_glued_at_points_and_sides_is_thinned(seed: int, n_glued: int) -> None:
+    """Sheets over one another that share some boundary points or all of one side: pinches and folds."""
+    random = np.random.default_rng(seed)
+    sheet = jittered(9, 9, 3)
+    n = sheet.n_points
+    side = np.flatnonzero(sheet.points[:, 0] == 8)
+    glued = side if n_glued == 3 else random.choice(np.unique(sheet.topology.outline), n_glued, replace=False)
+    other = np.arange(n) + n
+    other[glued] = glued
+    mesh = clean(
+        np.vstack([sheet.points, sheet.points]), np.vstack([sheet.triangles, other[sheet.triangles]])
+    ).mesh
+    thin = thinned(mesh)
+    assert_is_mesh(thin.mesh)
+    assert thin.mesh.area == pytest.approx(mesh.area)
+    assert thin.mesh.topology.n_pinches == mesh.topology.n_pinches
+    assert_are_connected(mesh, thin.triangle)
