@@ -39,13 +39,14 @@ from .regions.segmentation import PERSISTENCE
 from .regions.selection import triangles_inside
 from .result import PlannedMesh
 from .sizing import SizeField, named_size_field, size_field
+from .sizing.measure import triangles_wanted
 from .sizing.thinned import thin_named_size_field, thin_size_field
 
 LARGE = 200_000
 """A mesh of so many triangles is planned on a thinned one: there the compiled loop pays for its start."""
 
 LEAST = 16
-"""Triangles per block from which that is done: a block then still holds three of the thinned mesh."""
+"""Triangles of the mesh in the smallest block from which that is done: three are left of them."""
 
 
 @reused()
@@ -66,7 +67,7 @@ def plan_blocks(
 ) -> PlannedMesh:
     """Return a mesh file with its plans, one a block size.
 
-    A large mesh is planned on a thinned one, see `thin_for`, unless every_triangle is asked for. With
+    A large mesh is planned on a thinned one, see `sizes_to_plan`, unless every_triangle is asked for. With
     n_blocks there is one plan, at the smallest block size that needs no more blocks than that. size names a
     point or cell array, of size_file if that is given; region is a polygon in the coordinates of the file,
     cut out first: each of its connected pieces is one region.
@@ -77,10 +78,13 @@ def plan_blocks(
         check_block_size(int(n))
     cut = mesh_file if region is None else cut_out(mesh_file, region)
     progress("measuring sizes")
-    thin = None if every_triangle else thin_for(cut, tris_per_block, n_blocks)
+    if every_triangle:
+        field, thin = size_of(cut, size, size_file), None
+    else:
+        field, thin = sizes_to_plan(cut, size, size_file, tris_per_block=tris_per_block, n_blocks=n_blocks)
     return plan_sizes(
         cut,
-        size_of(cut, size, size_file, thin),
+        field,
         thin=thin,
         tris_per_block=tris_per_block,
         n_blocks=n_blocks,
@@ -144,18 +148,6 @@ def plan_sizes(
     return PlannedMesh(mesh_file, tuple(p if thin is None else p.carried(thin) for p in plans), planned_on)
 
 
-def thin_for(
-    mesh_file: MeshFile, tris_per_block: int | Sequence[int], n_blocks: int | None = None
-) -> Thinned | None:
-    """Return the thinned mesh to plan on: of a plane mesh of LARGE triangles or more, for blocks of LEAST.
-
-    None where the plan is made on the mesh itself.
-    """
-    mesh = mesh_file.mesh
-    least = np.min(tris_per_block) if n_blocks is None else mesh.n_triangles / n_blocks
-    return thinned(mesh) if mesh.is_planar and mesh.n_triangles >= LARGE and least >= LEAST else None
-
-
 def check_triangles_only(mesh_file: MeshFile) -> None:
     """Raise InvalidMesh for a mesh with quads, which a plan would leave out."""
     if len(mesh_file.quads):
@@ -165,32 +157,52 @@ def check_triangles_only(mesh_file: MeshFile) -> None:
         )
 
 
-def size_of(
+def sizes_to_plan(
     mesh_file: MeshFile,
     name: str | None = None,
     size_file: str | os.PathLike[str] | None = None,
-    thin: Thinned | None = None,
+    *,
+    tris_per_block: int | Sequence[int] = 16,
+    n_blocks: int | None = None,
+) -> tuple[SizeField, Thinned | None]:
+    """Return the size field to plan with, as `size_of`, and the thinned mesh that it is on, or None.
+
+    A plane mesh of LARGE triangles or more is thinned where the smallest block covers LEAST of them.
+    """
+    mesh, given = mesh_file.mesh, given_sizes(mesh_file, name, size_file)
+    if mesh.is_planar and mesh.n_triangles >= LARGE:
+        wanted = mesh.n_triangles if given is None else triangles_wanted(mesh, *given)
+        least = np.min(tris_per_block) if n_blocks is None else wanted / n_blocks
+        if least * mesh.n_triangles / wanted >= LEAST:
+            thin = thinned(mesh)
+            return thin_size_field(thin) if given is None else thin_named_size_field(thin, *given), thin
+    return size_field(mesh) if given is None else named_size_field(mesh, *given), None
+
+
+def size_of(
+    mesh_file: MeshFile, name: str | None = None, size_file: str | os.PathLike[str] | None = None
 ) -> SizeField:
-    """Return the size field of a mesh file: its own edges, its array of that name, or that of a size file.
+    """Return the size field of a mesh file on every triangle; sizes and errors are those of `given_sizes`."""
+    given = given_sizes(mesh_file, name, size_file)
+    return size_field(mesh_file.mesh) if given is None else named_size_field(mesh_file.mesh, *given)
 
-    On its thinned mesh where that is given.
 
-    Lengths of a projected mesh are true metres. Warns where many triangles are stretched, if their edges are
-    the size. Raises MeshReadError where there is no such array, and what `sizes_from` raises.
+def given_sizes(
+    mesh_file: MeshFile, name: str | None, size_file: str | os.PathLike[str] | None
+) -> tuple[Floats, str] | None:
+    """Return the sizes of a mesh file's array of that name, or of a size file, and their source.
+
+    One length a point or a triangle; those of a projected mesh are true metres. None where the mesh's own
+    edges are the size; warns where many triangles are stretched then. Raises MeshReadError where there is no
+    such array, and what `sizes_from` raises.
     """
     mesh = mesh_file.mesh
-
-    def named(values: Floats, source: str) -> SizeField:
-        if thin is None:
-            return named_size_field(mesh, values, source)
-        return thin_named_size_field(thin, values, source)
-
     if size_file is not None:
         source = os.fspath(size_file) + ("" if name is None else f": {name}")
-        return named(sizes_from(size_file, mesh_file, name=name), source)
+        return sizes_from(size_file, mesh_file, name=name), source
     if name is None:
         warn_of_stretched(mesh_file)
-        return size_field(mesh) if thin is None else thin_size_field(thin)
+        return None
     arrays = {**mesh_file.cell_data, **mesh_file.point_data}
     if name not in arrays:
         there = ", ".join(sorted(arrays)) or "none"
@@ -199,7 +211,7 @@ def size_of(
     if mesh_file.projection is not None and values.shape in {(mesh.n_points,), (mesh.n_triangles,)}:
         where = mesh.points if name in mesh_file.point_data else mesh.centroids
         values = values * mesh_file.projection.scale(where)
-    return named(values, name)
+    return values, name
 
 
 def boundary_limited_blocks(size: SizeField, tris_per_block: int) -> float | None:

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 from bsgplan import pipeline, plan_blocks, read
 from bsgplan.cli import main
-from bsgplan.pipeline import thin_for
+from bsgplan.pipeline import sizes_to_plan
 from tests.predicates import assert_is_plan, assert_is_segmentation
 
 CASES = Path(__file__).resolve().parent.parent / "cases"
@@ -71,12 +73,35 @@ def test_regions_and_sizes_are_those_of_the_whole_mesh() -> None:
 
 def test_small_meshes_and_small_blocks_are_planned_on_every_triangle(monkeypatch: pytest.MonkeyPatch) -> None:
     mesh_file = read(CASES / "square" / "mesh.msh")
-    assert thin_for(mesh_file, 16) is None
-    monkeypatch.setattr(pipeline, "LARGE", mesh_file.mesh.n_triangles)
-    assert thin_for(mesh_file, 16) is not None
-    assert thin_for(mesh_file, (4, 16)) is None
-    assert thin_for(mesh_file, 16, n_blocks=mesh_file.mesh.n_triangles // 4) is None
-    assert thin_for(mesh_file, 16, n_blocks=20) is not None
+    n_triangles = mesh_file.mesh.n_triangles
+
+    def is_thinned(**options: Any) -> bool:
+        field, thin = sizes_to_plan(mesh_file, **options)
+        assert field.mesh is (mesh_file.mesh if thin is None else thin.mesh)
+        return thin is not None
+
+    assert not is_thinned()
+    monkeypatch.setattr(pipeline, "LARGE", n_triangles)
+    assert is_thinned()
+    assert not is_thinned(tris_per_block=(4, 16))
+    assert not is_thinned(n_blocks=n_triangles // 4)
+    assert is_thinned(n_blocks=20)
+
+
+@pytest.mark.usefixtures("every_mesh_is_large")
+def test_blocks_are_measured_by_the_triangles_of_the_mesh_where_sizes_are_given() -> None:
+    """Sizes of half an edge: 16 of them are 4 triangles; sizes of two edges: 4 of them are 16."""
+    mesh_file = read(CASES / "square" / "mesh.msh")
+    edge = np.median(mesh_file.mesh.edge_lengths)
+    for factor, tris_per_block, is_thinned in (
+        (0.5, 16, False),
+        (0.5, 64, True),
+        (2.2, 4, True),
+        (2.2, 1, False),
+    ):
+        sized = replace(mesh_file, point_data={"h": np.full(mesh_file.mesh.n_points, factor * edge)})
+        _, thin = sizes_to_plan(sized, "h", tris_per_block=tris_per_block)
+        assert (thin is not None) == is_thinned
 
 
 @pytest.mark.usefixtures("every_mesh_is_large")

@@ -8,7 +8,7 @@ from ..arrays import Floats
 from ..errors import InvalidSize
 from ..mesh import Mesh
 from ..mesh.operators import to_vertices
-from .field import SizeField
+from .field import SizeField, covering
 from .smoothing import fit_edges, smooth
 
 REACH = 0.7
@@ -41,6 +41,11 @@ def named_size_field(mesh: Mesh, values: Floats, name: str, *, reach: float = RE
     Cell values are averaged to the points by area. Raises InvalidSize unless positive and finite.
     """
     return SizeField(mesh, np.exp(smooth(mesh, log_sizes(mesh, values, name), reach)), name)
+
+
+def triangles_wanted(mesh: Mesh, values: Floats, name: str) -> float:
+    """Return how many triangles the values of `named_size_field` ask for, before they are smoothed."""
+    return float(covering(mesh, np.exp(log_sizes(mesh, values, name))).sum())
 
 
 def log_sizes(mesh: Mesh, values: Floats, name: str) -> Floats:

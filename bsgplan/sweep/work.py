@@ -13,7 +13,7 @@ from ..errors import BsgplanError
 from ..io import MeshFile, read, read_lonlat
 from ..io.projection import warn_of_degrees
 from ..mesh.thinned import Thinned
-from ..pipeline import check_triangles_only, plan_sizes, size_of, thin_for
+from ..pipeline import check_triangles_only, plan_sizes, sizes_to_plan
 from ..planning import Plan
 from ..sizing import SizeField
 from .job import Job, Row, shortened
@@ -24,8 +24,9 @@ def plan_rows(job: Job) -> list[Row]:
     with _Warnings() as warnings:
         try:
             mesh_file = _open(job)
-            thin = thin_for(mesh_file, job.block_sizes)
-            size = size_of(mesh_file, job.options.size, job.size_path, thin)
+            size, thin = sizes_to_plan(
+                mesh_file, job.options.size, job.size_path, tris_per_block=job.block_sizes
+            )
         except Exception as error:  # any mesh, hostile ones too: the sweep goes on
             return job.failed(_reason(error, job))
         return [_planned(job, mesh_file, size, thin, n, warnings) for n in job.block_sizes]
