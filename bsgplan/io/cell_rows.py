@@ -9,7 +9,7 @@ import numpy as np
 
 from ..arrays import Ints
 from ..errors import MeshReadError
-from .text_records import Rows
+from .rows import Rows
 
 
 @dataclass(frozen=True, eq=False)

@@ -123,23 +123,29 @@ class Chunk:
 def chunks(path: Path) -> Iterator[Chunk]:
     """Give the text of a file chunk by chunk; raises MeshReadError where it is no text."""
     first, rest = 1, b""
-    with path.open("rb") as stream:
-        skip_mark(stream)
-        while piece := stream.read(CHUNK_BYTES):
-            if b"\0" in piece:
-                raise MeshReadError(f"binary data after line {first}, not a text; give the text file")
-            end = piece.rfind(b"\n") + 1
-            if not end:
-                rest += piece
-                if len(rest) > LONGEST_LINE:
-                    raise MeshReadError(f"line {first}: longer than {LONGEST_LINE} bytes; break it up")
-                continue
-            text, rest = rest + piece[:end], piece[end:]
-            n_lines = text.count(b"\n")
-            yield Chunk(text, np.arange(first, first + n_lines))
-            first += n_lines
+    for piece in pieces(path, CHUNK_BYTES):
+        if b"\0" in piece:
+            raise MeshReadError(f"binary data after line {first}, not a text; give the text file")
+        end = piece.rfind(b"\n") + 1
+        if not end:
+            rest += piece
+            if len(rest) > LONGEST_LINE:
+                raise MeshReadError(f"line {first}: longer than {LONGEST_LINE} bytes; break it up")
+            continue
+        text, rest = rest + piece[:end], piece[end:]
+        n_lines = text.count(b"\n")
+        yield Chunk(text, np.arange(first, first + n_lines))
+        first += n_lines
     if rest.strip():
         yield Chunk(rest + b"\n", np.array([first]))
+
+
+def pieces(path: Path, n_bytes: int) -> Iterator[bytes]:
+    """Give the bytes of a text file, so many at a time, without the mark before them."""
+    with path.open("rb") as stream:
+        skip_mark(stream)
+        while piece := stream.read(n_bytes):
+            yield piece
 
 
 class Lines:

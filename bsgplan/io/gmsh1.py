@@ -24,7 +24,8 @@ from .boundary import Boundary
 from .file import RawMesh
 from .number_table import shown
 from .point_numbers import corner_indices, point_numbers
-from .text_records import Rows, TextRecords, counts
+from .rows import Rows
+from .text_records import TextRecords, counts
 
 CORNERS = {2: 3, 9: 3, 3: 4, 10: 4, 16: 4, 1: 2, 8: 2}
 """Corners of the elements that are taken, lines and second order among them, by their type."""

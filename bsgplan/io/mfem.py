@@ -30,7 +30,8 @@ from .boundary import Boundary
 from .cell_rows import Cells, cells
 from .file import RawMesh
 from .number_table import shown
-from .text_records import NO_ROWS, TextRecords
+from .rows import NO_ROWS
+from .text_records import TextRecords
 
 GEOMETRIES = {
     0: ("vertex", 1), 1: ("line", 2), 2: ("triangle", 3), 3: ("quad", 4),

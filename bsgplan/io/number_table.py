@@ -47,11 +47,21 @@ def numbers_of(text: bytes) -> Floats | Ints | None:
     return _parsed(text, np.float64)
 
 
-def _parsed(text: bytes, kind: type[np.float64] | type[np.int64]) -> Any:
+def numbers_with_commas(text: bytes, n: int) -> Floats | None:
+    """Return the n numbers of a text with commas between them, (n,); None for any other text.
+
+    >>> numbers_with_commas(b"1, 2.5", 2), numbers_with_commas(b"1 2", 2)
+    (array([1. , 2.5]), None)
+    """
+    values = _parsed(text, np.float64, separator=",") if text.strip() else None  # numpy reads -1 of blanks
+    return values if values is not None and len(values) == n else None
+
+
+def _parsed(text: bytes, kind: type[np.float64] | type[np.int64], *, separator: str = " ") -> Any:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         try:
-            return np.fromstring(text, dtype=kind, sep=" ")
+            return np.fromstring(text, dtype=kind, sep=separator)
         except (DeprecationWarning, ValueError):
             return None
 

@@ -27,9 +27,9 @@ from .size_sol import read_sol
 
 HEAD = 4096
 """Bytes looked at to tell a size file from a mesh file."""
-VIEW = re.compile(rb"(\s|//[^\n]*|/\*.*?\*/)*View\s*\"", re.DOTALL)
-SOLUTION = re.compile(rb"\s*(#[^\n]*\s*)*MeshVersionFormatted\b.*?\bSolAt", re.DOTALL)
-GRID = re.compile(rb"\s*(#[^\n]*\s*)*mshid\s*=[^\n]*-grid\b", re.IGNORECASE)
+VIEW = re.compile(rb"(?>\s|//[^\n]*+|/\*.*?\*/)*+View\s*+\"", re.DOTALL)
+SOLUTION = re.compile(rb"(?>\s|#[^\n]*+)*+MeshVersionFormatted\b.*?\bSolAt", re.DOTALL)
+GRID = re.compile(rb"(?>\s|#[^\n]*+)*+mshid\s*+=[^\n]*-grid\b", re.IGNORECASE)
 SIZE_FORMATS = (".pos", "jigsaw")
 """Suffix and format of mesh files that hold sizes and nothing else: there the only array needs no name."""
 

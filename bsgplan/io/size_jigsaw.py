@@ -14,8 +14,7 @@ On an ellipsoid the coordinates are longitude and latitude in radians, sizes in 
 
 from __future__ import annotations
 
-import re
-import warnings
+from itertools import count
 from pathlib import Path
 
 import numpy as np
@@ -23,8 +22,12 @@ import numpy as np
 from ..arrays import Floats
 from ..errors import MeshReadError
 from ..sizing.grid import GridBackground
+from .number_table import shown
+from .rows import all_numbers
+from .text_records import TextRecords
 
-SECTION = re.compile(r"^[ \t]*([A-Za-z]\w*)[ \t]*=[ \t]*([^\n]*?)[ \t\r]*$", re.MULTILINE)
+MOST_SECTIONS = 100
+"""Sections of a file: a grid has six or seven."""
 EARTH_RADIUS = 6371008.8
 """Mean radius of the Earth, metres (IUGG)."""
 METRES = {1.0: (6.3e6, 6.4e6), 1e3: (6.3e3, 6.4e3)}
@@ -33,22 +36,31 @@ METRES = {1.0: (6.3e6, 6.4e6), 1e3: (6.3e3, 6.4e3)}
 
 def read_grid(path: Path, *, is_lonlat: bool) -> GridBackground:
     """Return the sizes of a grid file; is_lonlat where the mesh is in degrees, and the answer then too."""
-    text = re.sub(r"^[ \t]*#[^\n]*", "", path.read_text(encoding="utf-8", errors="replace"), flags=re.M)
-    words = SECTION.split(text)
     axes: dict[str, Floats] = {}
     kind, values, radii = "", np.empty(0), np.ones(1)
-    for key, given, body in zip(*(words[k::3] for k in (1, 2, 3)), strict=True):
-        parts = [part.strip() for part in given.split(";")]
-        if key.upper() == "MSHID":
-            kind = parts[-1].lower()
-        elif key.upper() == "RADII":
-            radii = _numbers(given, "RADII")
-        elif key.upper() == "COORD":
-            axes[parts[0]] = _rows(parts[-1], body, f"COORD={parts[0]}")
-        elif key.upper() == "VALUE":
-            if parts[1:] != ["1"]:
-                raise MeshReadError(f"VALUE={given}, several values a node; give one size each")
-            values = _rows(parts[0], body, "VALUE")
+    with TextRecords(path, comment=b"#", separator=b";") as records:
+        for n_sections in count():
+            head = _head(records)
+            if head is None:
+                break
+            if n_sections == MOST_SECTIONS:
+                raise MeshReadError(
+                    f"line {records.line_number}: section {n_sections + 1}; no grid has as many"
+                )
+            key, words = head
+            body = records.numbers(key, read=all_numbers)
+            _check_head(records.peek(), records.line_number + 1)
+            if key == "MSHID":
+                kind = words[-1].lower()
+            elif key == "RADII":
+                radii = _radii(words)
+            elif key == "COORD":
+                axes[words[0]] = _counted(words[-1], body, f"COORD={words[0]}")
+            elif key == "VALUE":
+                if words[1:] != ["1"]:
+                    given = ";".join(words)
+                    raise MeshReadError(f"VALUE={given}, several values a node; give one size each")
+                values = _counted(words[0], body, "VALUE")
     if set(axes) != {"1", "2"}:
         raise MeshReadError(f"coordinates {', '.join(axes) or 'none'}; give a grid of x and y")
     x, y = axes["1"], axes["2"]
@@ -70,17 +82,36 @@ def metres(radius: float) -> float:
     return next((unit for unit, (low, high) in METRES.items() if low < radius < high), EARTH_RADIUS / radius)
 
 
-def _rows(count: str, body: str, what: str) -> Floats:
-    numbers = _numbers(body, what)
-    if count != str(len(numbers)):
-        raise MeshReadError(f"{what} announces {count} numbers, {len(numbers)} follow; repair the file")
+def _head(records: TextRecords) -> tuple[str, list[str]] | None:
+    """Return the name of the next section and the words behind it, one at the least; None at the end."""
+    line = records.line()
+    if line is None:
+        return None
+    _check_head(line, records.line_number)
+    name, _, rest = line.decode("utf-8", "replace").partition("=")
+    return name.strip().upper(), rest.split() or [""]
+
+
+def _check_head(line: bytes, line_number: int) -> None:
+    if line and b"=" not in line:
+        raise MeshReadError(
+            f"line {line_number}: {shown(line)} is no number, nor a section NAME=..; repair the file"
+        )
+
+
+def _counted(announced: str, numbers: Floats, what: str) -> Floats:
+    if announced != str(len(numbers)):
+        raise MeshReadError(
+            f"{what} announces {announced[:20]} numbers, {len(numbers)} follow; repair the file"
+        )
     return numbers
 
 
-def _numbers(text: str, what: str) -> Floats:
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        try:
-            return np.asarray(np.fromstring(text.replace(";", " "), sep=" "))
-        except (DeprecationWarning, ValueError):
-            raise MeshReadError(f"{what} holds something that is no number; repair the file") from None
+def _radii(words: list[str]) -> Floats:
+    try:
+        radii = np.array([float(word) for word in words])
+    except ValueError:
+        radii = np.zeros(1)
+    if not (np.isfinite(radii) & (radii > 0)).all():
+        raise MeshReadError(f"RADII={';'.join(words)[:60]}, no lengths; give the radii of the ellipsoid")
+    return radii

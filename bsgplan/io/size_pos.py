@@ -17,8 +17,7 @@ Delaunay triangulation. Vectors, tensors, volumes and texts are left out.
 
 from __future__ import annotations
 
-import re
-import warnings
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -27,61 +26,73 @@ from ..arrays import Floats
 from ..errors import MeshReadError
 from ..mesh.quads import split_quads
 from ..sizing.background import Background
+from .chunks import pieces
+from .growing import Growing
+from .number_table import numbers_with_commas
+from .pos_elements import ElementReader
+from .pos_text import parts
 
-COMMENT = re.compile(r'("[^"\n]*")|//[^\n]*|/\*.*?\*/', re.DOTALL)
-HEADER = re.compile(r'View\s*"([^"\n]*)"\s*\{')
-ITEM = re.compile(r"([A-Z]+\d?)\s*\(([^(){}]*)\)\s*\{([^{}]*)\}")
-TIME = re.compile(r"TIME\s*\{[^{}]*\}")
-CORNERS = {"SP": 1, "SL": 2, "ST": 3, "SQ": 4, "SL2": 2, "ST2": 3, "SQ2": 4}
-"""Kinds of element that carry a scalar, and their corners."""
+BUFFER = 2**18
+"""Bytes read at a time."""
+MOST_NAMES = 20
+"""Names of views, or kinds of elements, that a message tells."""
+LARGE = 2**24
+"""Bytes of a file from which on its numbers are read by compiled code, half a second to load."""
 
 
 def read_pos(path: Path, name: str | None) -> Background:
     """Return the sizes of one view of a parsed .pos file; name is needed where it has several."""
-    text = path.read_text(encoding="utf-8", errors="replace")
-    if "//" in text or "/*" in text:
-        text = COMMENT.sub(lambda found: found[1] or " ", text)
-    words = HEADER.split(text)
-    views: dict[str, str] = {}
-    for view, body in zip(words[1::2], words[2::2], strict=True):
-        views.setdefault(view, body)
-    if name is None and len(views) > 1:
-        raise MeshReadError(f"{len(views)} views, {', '.join(views)}; choose one with --size")
-    if name is not None and name not in views:
-        raise MeshReadError(f"no view {name!r} for --size; the file's views: {', '.join(views) or 'none'}")
-    return _background(views[name] if name is not None else next(iter(views.values()), ""))
-
-
-def _background(body: str) -> Background:
-    pieces = ITEM.split(body)
-    for rest in set(pieces[::4]):
-        left = TIME.sub("", rest).strip(" \t\r\n;}")
-        if left:
-            raise MeshReadError(f"{left[:60]!r} stands between the elements of a view; repair the file")
-    kinds = np.array(pieces[1::4])
-    corners, sizes = [np.empty((0, 3, 3))], [np.empty((0, 3))]
-    points, point_sizes = [np.empty((0, 3))], [np.empty(0)]
-    for kind in sorted(set(pieces[1::4]) & set(CORNERS)):
-        which = np.flatnonzero(kinds == kind).tolist()
-        n = CORNERS[kind]
-        places = _table([pieces[4 * k + 2] for k in which], kind, "coordinates", 3 * n)[:, : 3 * n]
-        values = _table([pieces[4 * k + 3] for k in which], kind, "values", n)[:, :n]
-        places = places.reshape(len(which), n, 3)
-        if n < 3:
-            points.append(places.reshape(-1, 3))
-            point_sizes.append(values.ravel())
+    names: dict[str, int] = {}
+    heaps, reader = dict[str, _Heap](), ElementReader(_numbers_reader(path))
+    for part in parts(pieces(path, BUFFER)):
+        first = names.setdefault(part.name, part.view)
+        if part.view != (0 if name is None else first) or name not in (None, part.name):
+            continue
+        for kind, places, values in reader.read(part.text):
+            heaps.setdefault(kind, _Heap(places.shape[1])).add(places, values)
+    views = ", ".join([*list(names)[:MOST_NAMES], *[".."] * (len(names) > MOST_NAMES)])
+    if name is None and len(names) > 1:
+        raise MeshReadError(f"{len(names)} views, {views}; choose one with --size")
+    if name is not None and name not in names:
+        raise MeshReadError(f"no view {name!r} for --size; the file's views: {views or 'none'}")
+    for n_corners in (3, 1):
+        found = [heaps[kind].taken() for kind in sorted(heaps) if heaps[kind].n_corners == n_corners]
+        if len(found) == 1:
+            places, values = found[0]
+        elif found:
+            places, values = (np.concatenate(arrays) for arrays in zip(*found, strict=True))
         else:
-            if n == 4:
-                places, values = _halves(places, values)
-            corners.append(places)
-            sizes.append(values)
-    heap, heap_sizes = np.concatenate(corners), np.concatenate(sizes)
-    if len(heap):
-        return Background(heap, heap_sizes)
-    if len(points) == 1:
-        found = ", ".join(sorted(set(pieces[1::4]))) or "nothing"
-        raise MeshReadError(f"the view holds {found}; give scalars on points or triangles (SP, SL, ST, SQ)")
-    return joined(np.concatenate(points), np.concatenate(point_sizes))
+            continue
+        return Background(places, values) if n_corners == 3 else joined(places[:, 0], values[:, 0])
+    there = ", ".join(sorted(reader.kinds)[:MOST_NAMES]) or "nothing"
+    raise MeshReadError(f"the view holds {there}; give scalars on points or triangles (SP, SL, ST, SQ)")
+
+
+def _numbers_reader(path: Path) -> Callable[[bytes, int], Floats | None]:
+    if path.stat().st_size < LARGE:
+        return numbers_with_commas
+    from .decimals import decimals  # loads the compiler
+
+    return decimals
+
+
+class _Heap:
+    """The elements of one kind, as triangles or as points."""
+
+    def __init__(self, n_corners: int) -> None:
+        self.n_corners = 1 if n_corners < 3 else 3
+        self._places, self._values = Growing(3 * self.n_corners), Growing(self.n_corners)
+
+    def add(self, places: Floats, values: Floats) -> None:
+        """Append elements, (n, n_corners, 3) and (n, n_corners); a quadrilateral is two triangles."""
+        if values.shape[1] == 4:
+            places, values = _halves(places, values)
+        self._places.add(places.reshape(-1, 3 * self.n_corners))
+        self._values.add(values.reshape(-1, self.n_corners))
+
+    def taken(self) -> tuple[Floats, Floats]:
+        """Return the places, (n, 3 or 1, 3), and values, (n, 3 or 1)."""
+        return self._places.taken().reshape(-1, self.n_corners, 3), self._values.taken()
 
 
 def joined(points: Floats, sizes: Floats) -> Background:
@@ -105,31 +116,3 @@ def joined(points: Floats, sizes: Floats) -> Background:
 def _halves(places: Floats, values: Floats) -> tuple[Floats, Floats]:
     triangles, _ = split_quads(places.reshape(-1, 3), np.arange(4 * len(places)).reshape(-1, 4))
     return places.reshape(-1, 3)[triangles], values.ravel()[triangles]
-
-
-def _table(texts: list[str], kind: str, what: str, at_least: int) -> Floats:
-    """Return the numbers of each text, (n_texts, n_numbers); all have the same number of them."""
-    commas = {text.count(",") for text in texts}
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        try:
-            numbers = np.fromstring(",".join(texts), sep=",")
-        except (DeprecationWarning, ValueError):
-            numbers = np.empty(0)
-    width = min(commas) + 1
-    if len(commas) > 1 or len(numbers) != width * len(texts) or width < at_least:
-        wrong = next((text for text in texts if not _is_row(text, width, at_least)), texts[0])
-        raise MeshReadError(
-            f"{kind} with {what} {wrong.strip()[:60]!r}; {at_least} plain numbers with commas between "
-            "are needed, and of every element as many"
-        )
-    table: Floats = numbers.reshape(len(texts), width)
-    return table
-
-
-def _is_row(text: str, width: int, at_least: int) -> bool:
-    words = text.split(",")
-    try:
-        return len([float(word) for word in words]) == max(width, at_least)
-    except ValueError:
-        return False

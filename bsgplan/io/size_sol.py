@@ -18,7 +18,6 @@ from __future__ import annotations
 
 import logging
 import re
-import warnings
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -27,12 +26,18 @@ import numpy as np
 from ..arrays import Floats, Ints, frozen_floats, sums_by
 from ..errors import InvalidSize, MeshReadError
 from ..mesh import Mesh
+from .number_table import shown
+from .rows import all_numbers
+from .text_records import TextRecords
 
 STRETCH = 1.5
 """Ratio of the two sizes of a metric above which a warning says that blocks will not be stretched."""
 COLUMNS = {2: {1: 1, 2: 2, 3: 3}, 3: {1: 1, 2: 3, 3: 6}}
 """Numbers a vertex by dimension and type of solution."""
 SCALAR, TENSOR = 1, 3
+DIMENSION, AT_VERTICES = re.compile(rb"\bDimension\s"), re.compile(rb"\bSolAtVertices\s")
+MOST_SOLUTIONS = 64
+"""Solutions at a vertex: more are a mistake in the header."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,24 +62,38 @@ class Solution:
 
 def read_sol(path: Path) -> Solution:
     """Return the first scalar or tensor at the vertices of an ASCII .sol file."""
-    text = re.sub(r"#[^\n]*", "", path.read_text(encoding="utf-8", errors="replace"))
-    dimension = re.search(r"\bDimension\s+([23])\b", text)
-    header = re.search(r"\bSolAtVertices\s+(\d+)\s+(\d+)((?:\s+\d+){0,64})", text)
-    if dimension is None or header is None:
-        raise MeshReadError("no Dimension 2 or 3, or no SolAtVertices; give the sizes at the vertices")
-    n, n_solutions = int(header[1]), int(header[2])
-    types = [int(word) for word in header[3].split()[:n_solutions]]
-    columns = COLUMNS[int(dimension[1])]
-    if not types or len(types) < n_solutions or not set(types) <= set(columns):
-        raise MeshReadError(f"{n_solutions} solutions of types {types}; types are 1, 2 and 3, one a solution")
-    wanted = next((k for k, kind in enumerate(types) if kind in (SCALAR, TENSOR)), None)
-    if wanted is None:
-        raise MeshReadError("vectors only; give a scalar (type 1) or a metric (type 3)")
-    widths = [columns[kind] for kind in types]
-    body = text[header.start(3) :].split(None, n_solutions)[-1]
-    table = _numbers(re.split(r"\b(?:End|SolAt\w+)\b", body)[0], n, sum(widths))
+    with TextRecords(path, comment=b"#") as records:
+        records.skip_to(DIMENSION)
+        dimension = records.word()
+        records.skip_to(AT_VERTICES)
+        n, n_solutions = _whole(records.word()), _whole(records.word())
+        if dimension not in (b"2", b"3") or n is None or n_solutions is None:
+            raise MeshReadError("no Dimension 2 or 3, or no SolAtVertices; give the sizes at the vertices")
+        types = [_whole(records.word()) for _ in range(min(n_solutions, MOST_SOLUTIONS))]
+        columns = COLUMNS[int(dimension)]
+        widths = [columns[kind] for kind in types if kind in columns]
+        if not types or len(widths) < n_solutions:
+            raise MeshReadError(
+                f"{n_solutions} solutions of types {types}; types are 1, 2 and 3, one a solution"
+            )
+        wanted = next((k for k, kind in enumerate(types) if kind in (SCALAR, TENSOR)), None)
+        if wanted is None:
+            raise MeshReadError("vectors only; give a scalar (type 1) or a metric (type 3)")
+        numbers = records.numbers("a value", read=all_numbers)
+        after, line_number = records.word(), records.line_number + 1
+    if after and after != b"End" and not after.startswith(b"SolAt"):
+        raise MeshReadError(f"line {line_number}: {shown(after)} is no number; repair the file")
+    if len(numbers) != n * sum(widths):
+        raise MeshReadError(
+            f"{len(numbers)} numbers where {n} vertices need {sum(widths)} each; repair the file"
+        )
     start = sum(widths[:wanted])
-    return Solution(table[:, start : start + widths[wanted]])
+    return Solution(numbers.reshape(n, sum(widths))[:, start : start + widths[wanted]])
+
+
+def _whole(word: bytes) -> int | None:
+    """Return the whole number that a word is, None where it is none or one of more than 18 digits."""
+    return int(word) if word.isdigit() and len(word) <= 18 else None
 
 
 def isotropic(metrics: Floats, normal: Floats) -> Floats:
@@ -124,19 +143,3 @@ def normals(mesh: Mesh) -> Floats:
     total = np.column_stack([sums_by(mesh.triangles, part, mesh.n_points) for part in cross.T])
     length = np.linalg.norm(total, axis=1, keepdims=True)
     return np.asarray(np.where(length > 0, total / np.where(length > 0, length, 1.0), [0.0, 0.0, 1.0]))
-
-
-def _numbers(text: str, n_rows: int, n_columns: int) -> Floats:
-    """Return the table of a text of numbers; raises MeshReadError unless there are as many as wanted."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        try:
-            numbers = np.fromstring(text, sep=" ")
-        except (DeprecationWarning, ValueError):
-            raise MeshReadError("a value that is no number; repair the file") from None
-    if len(numbers) != n_rows * n_columns:
-        raise MeshReadError(
-            f"{len(numbers)} numbers where {n_rows} vertices need {n_columns} each; repair the file"
-        )
-    table: Floats = numbers.reshape(n_rows, n_columns)
-    return table

@@ -28,7 +28,8 @@ from .boundary import Boundary
 from .cell_rows import Cells, cells
 from .file import RawMesh
 from .number_table import shown
-from .text_records import NO_ROWS, TextRecords
+from .rows import NO_ROWS
+from .text_records import TextRecords
 
 TYPES = {
     1: ("vertex", 1), 3: ("line", 2), 5: ("triangle", 3), 9: ("quad", 4),

@@ -7,74 +7,28 @@ allocated from the count that a header claims: rows are kept as they arrive.
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import TracebackType
-from typing import NamedTuple
 
 import numpy as np
 
 from ..arrays import Floats, Ints
 from ..errors import MeshReadError
 from .byte_order_mark import skip_mark
-from .number_table import LARGEST_WHOLE, numbers_of, shown, word_starts
+from .growing import Growing
+from .number_table import shown, word_starts
+from .rows import Rows, finite_numbers, joined, rows_of
 
 BUFFER = 1 << 20
-"""Bytes read at a time; no line may be longer."""
-LETTER = re.compile(rb"(?m)^[ \t\r]*[A-Za-z]")
-
-
-class Rows(NamedTuple):
-    """Rows of numbers, not all of the same length, one after the other."""
-
-    values: Floats | Ints
-    """All numbers, (n_values,), as integers where all are whole."""
-    starts: Ints
-    """Where each row begins in `values`, and the end, (n_rows + 1,)."""
-    line_numbers: Ints
-    """Line of each row in the file, (n_rows,), from 1."""
-
-    @property
-    def lengths(self) -> Ints:
-        """Number of values in each row, (n_rows,)."""
-        return np.diff(self.starts)
-
-    def columns(self, first: int, stop: int, what: str) -> Floats:
-        """Return values first .. stop - 1 of every row, (n_rows, stop - first)."""
-        return np.ascontiguousarray(self._table(first, stop, what), dtype=np.float64)
-
-    def integers(self, first: int, stop: int, what: str) -> Ints:
-        """Return values first .. stop - 1 of every row as whole numbers, (n_rows, stop - first)."""
-        table = self._table(first, stop, what)
-        if table.dtype.kind == "i":
-            return np.ascontiguousarray(table, dtype=np.int64)
-        is_bad = (table != np.rint(table)) | (np.abs(table) > LARGEST_WHOLE)
-        if is_bad.any():
-            row, column = np.argwhere(is_bad)[0]
-            raise MeshReadError(
-                f"line {self.line_numbers[row]}: {what} has {table[row, column]:g} for a whole number; "
-                "repair the line or the header's counts"
-            )
-        return table.astype(np.int64)
-
-    def _table(self, first: int, stop: int, what: str) -> Floats | Ints:
-        is_short = self.lengths < stop
-        if is_short.any():
-            where = int(np.flatnonzero(is_short)[0])
-            raise MeshReadError(
-                f"line {self.line_numbers[where]}: {what} needs {stop} numbers, got {self.lengths[where]}; "
-                "repair the line or the header's counts"
-            )
-        n_rows = len(self.line_numbers)
-        if n_rows and (self.lengths == self.lengths[0]).all():
-            return self.values.reshape(n_rows, -1)[:, first:stop]
-        return self.values[self.starts[:-1, None] + np.arange(first, stop)]
-
-    def of(self, is_wanted: np.ndarray) -> Rows:
-        """Return the rows where is_wanted is true, (n_rows,)."""
-        kept = np.repeat(is_wanted, self.lengths)
-        starts = np.concatenate([[0], np.cumsum(self.lengths[is_wanted])])
-        return Rows(self.values[kept], starts, self.line_numbers[is_wanted])
+"""Bytes read at a time; no line may be longer, but where its numbers are read by `TextRecords.numbers`."""
+WINDOW = 1 << 12
+"""Bytes of the buffer looked at first: many short runs of rows cost no more than a long one."""
+WORD = re.compile(rb"\s*+(\S*+)")
+NUMBER = re.compile(rb"(?i)(nan|inf|infinity)(?!\S)")
+"""Words that begin with a letter and are numbers."""
+KEYWORD_BYTES = 64
+"""Bytes of a keyword, at the most."""
 
 
 class TextRecords:
@@ -88,6 +42,7 @@ class TextRecords:
         self._text = b""
         self._position = 0
         self._line_start = 0
+        self._comment_goes_on = False
 
     def __enter__(self) -> TextRecords:
         return self
@@ -100,7 +55,7 @@ class TextRecords:
     def line(self) -> bytes | None:
         """Return the next line that says something, stripped, without its comment; None at the end."""
         while (line := self._raw_line()) is not None:
-            said = line.partition(self.comment)[0].strip()
+            said = line.strip()
             if said:
                 return said
         return None
@@ -125,23 +80,53 @@ class TextRecords:
                     f"the file ends after {n_found} of {n_rows} lines, {what} each; "
                     "repair the count or fetch the whole file"
                 )
-            parts.append(_rows(block, first, self.comment, what))
+            parts.append(rows_of(block, first, what))
             n_found += len(parts[-1].line_numbers)
-        return _joined(parts)
+        return joined(parts)
 
-    def numbers(self, what: str) -> Floats:
-        """Return all numbers up to the next line that begins with a letter, (n,), however they are broken."""
-        parts: list[Floats | Ints] = [np.empty(0)]
-        while (head := self.peek()) and not head[:1].isalpha():
+    def numbers(self, what: str, *, read: Callable[..., Floats | Ints] = finite_numbers) -> Floats:
+        """Return all numbers up to the next word that begins with a letter, (n,), however they are broken.
+
+        `read` makes numbers of words: `finite_numbers`, or `all_numbers` where NaN passes.
+        """
+        numbers, window = Growing(1), WINDOW
+        while block := self._words(window):
             first = self.line_number + 1
-            block = self._block(BUFFER)
-            stop = LETTER.search(block)
-            if stop:
-                self._position -= len(block) - stop.start()
-                self.line_number -= block.count(b"\n", stop.start()) + (not block.endswith(b"\n"))
-                block = block[: stop.start()]
-            parts.append(_rows(block, first, self.comment, what).values)
-        return np.concatenate(parts)
+            words = word_starts(np.frombuffer(block, dtype=np.uint8))
+            stop = _keyword(block, words)
+            is_last = stop < len(block)
+            if is_last:
+                words = words[: np.searchsorted(words, stop)]
+            values = read(block[:stop], first, what, n_words=len(words)) if len(words) else np.empty(0)
+            numbers.add(np.asarray(values, dtype=np.float64)[:, None])
+            self._pass(stop)
+            if is_last:
+                break
+            window = min(2 * window, BUFFER)
+        return numbers.taken()[:, 0]
+
+    def word(self) -> bytes:
+        """Return the next word, empty at the end."""
+        while True:
+            found = next(WORD.finditer(self._text, self._position))  # the empty word is one too
+            self._pass(found.start(1) - self._position)
+            if found.end() < len(self._text) or not self._refill():
+                self._pass(len(found[1]))
+                return found[1]
+
+    def skip_to(self, keyword: re.Pattern[bytes]) -> None:
+        """Stand behind the next keyword, found with the blank behind it, or at the end."""
+        while not (found := keyword.search(self._text, self._position)):
+            self._pass(max(len(self._text) - KEYWORD_BYTES - self._position, 0))
+            if not self._refill():
+                self._pass(len(self._text) - self._position)
+                return
+        self._pass(found.end() - self._position)
+
+    def _pass(self, n_bytes: int) -> None:
+        stop = self._position + n_bytes
+        self.line_number += self._text.count(b"\n", self._position, stop)
+        self._position = stop
 
     def _raw_line(self) -> bytes | None:
         while not (end := self._text.find(b"\n", self._position) + 1):
@@ -158,70 +143,58 @@ class TextRecords:
         """Return at most so many whole lines of the buffer, at least one; empty at the end of the file."""
         while self._text.find(b"\n", self._position) < 0 and self._refill():
             pass
-        text = np.frombuffer(self._text, dtype=np.uint8)[self._position :]
-        ends = np.flatnonzero(text == ord("\n"))[:n_lines]
+        window = max(WINDOW, 8 * min(n_lines, BUFFER))
+        while True:
+            text = np.frombuffer(self._text, dtype=np.uint8)[self._position : self._position + window]
+            ends = np.flatnonzero(text == ord("\n"))[:n_lines]
+            if len(ends) == n_lines or len(text) < window:
+                break
+            window *= 4
         stop = int(ends[-1]) + 1 if len(ends) else len(text)
         block = self._text[self._position : self._position + stop]
         self._position += stop
         self.line_number += len(ends) or bool(block)
         return block
 
+    def _words(self, window: int) -> bytes:
+        """Return whole words that come next, about a window of them, not yet passed; empty at the end."""
+        while True:
+            limit = self._position + window
+            stop = 1 + max(self._text.rfind(blank, self._position, limit) for blank in (b"\n", b" ", b"\t"))
+            if stop > self._position:
+                return self._text[self._position : stop]
+            if limit < len(self._text):
+                window *= 4
+            elif not self._refill():
+                return self._text[self._position :]
+
     def _refill(self) -> bool:
-        """Drop what was handed out and read on; False at the end of the file."""
+        """Drop what was handed out and read on, a blank for each byte of a comment; False at the end."""
         rest = self._text[self._position :]
         if len(rest) > BUFFER:
             raise MeshReadError(
                 f"line {self.line_number + 1} has more than {BUFFER} bytes, no line of a mesh; check the file"
             )
         more = self.stream.read(BUFFER)
+        if self._comment_goes_on or self.comment in more:
+            more = self._without_comments(more)
         if self.separator != b" ":
             more = more.replace(self.separator, b" ")
         self._text, self._position = rest + more, 0
         return bool(more)
 
-
-NO_ROWS = Rows(np.empty(0), np.zeros(1, dtype=np.int64), np.empty(0, dtype=np.int64))
-
-
-def _rows(block: bytes, first: int, comment: bytes, what: str) -> Rows:
-    """Return the rows of whole lines of text, of which the first has that line number."""
-    if comment in block:
-        block = re.sub(re.escape(comment) + rb"[^\n]*", b"", block)
-    text = np.frombuffer(block, dtype=np.uint8)
-    words = word_starts(text)
-    if not len(words):
-        return NO_ROWS
-    values = numbers_of(block)
-    if values is None or len(values) != len(words) or not np.isfinite(values).all():
-        raise _first_bad_word(block, first, what)
-    ends = np.append(np.flatnonzero(text == ord("\n")), len(text))
-    lengths = np.diff(np.searchsorted(words, ends), prepend=0)
-    is_row = lengths > 0
-    starts = np.concatenate([[0], np.cumsum(lengths[is_row])])
-    return Rows(values, starts, first + np.flatnonzero(is_row))
+    def _without_comments(self, text: bytes) -> bytes:
+        lines = self.comment + text if self._comment_goes_on else text
+        cleared = re.sub(re.escape(self.comment) + rb"[^\n]*+", lambda found: b" " * len(found[0]), lines)
+        self._comment_goes_on = self.comment in lines[lines.rfind(b"\n") + 1 :]
+        return cleared[len(lines) - len(text) :]
 
 
-def _first_bad_word(block: bytes, first: int, what: str) -> MeshReadError:
-    for number, line in enumerate(block.split(b"\n"), first):
-        for word in line.split():
-            values = numbers_of(word)
-            if values is None or len(values) != 1 or not np.isfinite(values[0]):
-                return MeshReadError(
-                    f"line {number}: {what} has {shown(word)}, not a finite number; "
-                    "repair the line or the header's counts"
-                )
-    return MeshReadError(f"line {first}: no numbers of a {what} from there on; repair the lines")
-
-
-def _joined(parts: list[Rows]) -> Rows:
-    parts = [part for part in parts if len(part.values)] or [NO_ROWS]
-    offsets = np.cumsum([0] + [len(part.values) for part in parts])
-    starts = [part.starts[:-1] + offset for part, offset in zip(parts, offsets, strict=False)]
-    return Rows(
-        np.concatenate([part.values for part in parts]),
-        np.concatenate([*starts, offsets[-1:]]),
-        np.concatenate([part.line_numbers for part in parts]),
-    )
+def _keyword(block: bytes, words: Ints) -> int:
+    """Return where the first of the words begins that begins with a letter and is no number, or the end."""
+    first = np.frombuffer(block, dtype=np.uint8)[words] | 32
+    letters = words[(first >= ord("a")) & (first <= ord("z"))]
+    return next((at for at in letters.tolist() if not NUMBER.match(block, at)), len(block))
 
 
 def counts(line: bytes, line_number: int, names: Sequence[str]) -> list[int]:
