@@ -1,10 +1,13 @@
-"""Every text reader of ours against meshio's of ASCII MSH 2.2, on the same mesh: time and memory."""
+"""Every text reader of ours, of meshes and sizes, against meshio's of ASCII MSH 2.2: time and memory."""
 
 from __future__ import annotations
 
+import math
 import tempfile
 import tracemalloc
 from collections.abc import Callable, Iterator
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import meshio
@@ -13,7 +16,12 @@ import numpy as np
 import bsgplan
 from bsgplan.io import write
 from bsgplan.io.formats import BY_NAME
+from bsgplan.io.pos_write import ARRAY, write_pos
+from bsgplan.io.size_jigsaw import read_grid
+from bsgplan.io.size_pos import read_pos
+from bsgplan.io.size_sol import read_sol
 from bsgplan.mesh.mesh import Mesh
+from bsgplan.sizing import size_field
 
 from .cost import cpu_of
 from .meshes import stripes
@@ -35,6 +43,15 @@ FILES = {
 }
 """A file of every text format with a reader of ours."""
 
+SIZES: dict[str, tuple[str, Callable[[Path], object]]] = {
+    "sizes in .pos": ("sizes.pos", lambda path: read_pos(path, None)),
+    "sizes in .sol": ("sizes.sol", read_sol),
+    "a grid of sizes": ("grid.msh", lambda path: read_grid(path, is_lonlat=False)),
+}
+"""A file of every text format of sizes: on each triangle, at each vertex, at as many crossings."""
+SIZES_DEMAND = 0.5
+"""What reading sizes may cost, as a share of what meshio takes to read the mesh."""
+
 
 def rows() -> Iterator[Row]:
     """Measure the readers on files of the same mesh: the reader alone, and one with check and clean-up."""
@@ -48,17 +65,15 @@ def rows() -> Iterator[Row]:
         yield Row("meshio reads MSH 2.2 (ASCII)", theirs / millions, "s CPU a million")
         peak = peak_of(lambda: meshio.gmsh.read(gmsh))
         yield Row("meshio reads MSH 2.2 (ASCII): peak memory", peak / mesh.n_triangles, "B a triangle")
-        for format_name, file in FILES.items():
-            path = folder / file
-
-            def read(format_name: str = format_name, path: Path = path) -> object:
-                return BY_NAME[format_name].read(path)
-
+        readers = [(name, BY_NAME[name].read, file, 1.0) for name, file in FILES.items()]
+        readers += [(what, read, file, SIZES_DEMAND) for what, (file, read) in SIZES.items()]
+        for what, reader, file, demand in readers:
+            read = partial(reader, folder / file)
             ours = least(lambda read=read: cpu_of(read)[1])
-            yield Row(f"bsgplan reads {format_name}", ours / millions, "s CPU a million")
-            yield Row(f"bsgplan reads {format_name}: over meshio's", ours / theirs, "x", below=1)
+            yield Row(f"bsgplan reads {what}", ours / millions, "s CPU a million")
+            yield Row(f"bsgplan reads {what}: over meshio's", ours / theirs, "x", below=demand)
             peak = peak_of(read)
-            yield Row(f"bsgplan reads {format_name}: peak memory", peak / mesh.n_triangles, "B a triangle")
+            yield Row(f"bsgplan reads {what}: peak memory", peak / mesh.n_triangles, "B a triangle")
         _, whole = cpu_of(lambda: bsgplan.read(folder / FILES["fort.14"]))
         what = "bsgplan reads fort.14, checks and cleans it"
         yield Row(what, whole / millions, "s CPU a million")
@@ -76,7 +91,7 @@ def peak_of(call: Callable[[], object]) -> int:
 
 
 def write_files(folder: Path, mesh: Mesh) -> None:
-    """Write a mesh in MSH 2.2 and in every text format with a reader of ours."""
+    """Write a mesh and its sizes in MSH 2.2 and in every text format with a reader of ours."""
     write_msh22(folder / "mesh.msh", mesh)
     for name, file in FILES.items():
         if BY_NAME[name].writer is not None:
@@ -90,3 +105,22 @@ def write_files(folder: Path, mesh: Mesh) -> None:
         stream.write(f"$ENDNOD\n$ELM\n{mesh.n_triangles}\n")
         np.savetxt(stream, np.column_stack([head, mesh.triangles + 1]), fmt="%d")
         stream.write("$ENDELM\n")
+    write_sizes(folder, mesh)
+
+
+def write_sizes(folder: Path, mesh: Mesh) -> None:
+    """Write the sizes of a mesh in every format of sizes, those of its points on a grid too."""
+    size = size_field(mesh).h
+    write_pos(replace(fresh(mesh), point_data={ARRAY: size}), folder / "sizes.pos")
+    with (folder / "sizes.sol").open("w") as stream:
+        stream.write(f"MeshVersionFormatted 2\nDimension 2\nSolAtVertices\n{mesh.n_points}\n1 1\n")
+        np.savetxt(stream, size, fmt="%.16g")
+        stream.write("End\n")
+    n = math.isqrt(mesh.n_points)
+    with (folder / "grid.msh").open("w") as stream:
+        stream.write("MSHID=3;EUCLIDEAN-GRID\nNDIMS=2\n")
+        for axis in (1, 2):
+            stream.write(f"COORD={axis};{n}\n")
+            np.savetxt(stream, np.arange(n), fmt="%d")
+        stream.write(f"VALUE={n * n};1\n")
+        np.savetxt(stream, size[: n * n], fmt="%.16g")
