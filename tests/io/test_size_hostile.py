@@ -103,7 +103,7 @@ MANY = 1 << 20
         (VIEW_OF + b"/" * 4 * MANY, "the view holds nothing"),
         (VIEW_OF + b'"' * (MANY // 4), "between the elements"),
         (b'View "' + b"a" * 4 * MANY, "more without a closing quote"),
-        (b'View"a"{' * (MANY // 8), "the view holds nothing"),
+        (b'View"a"{' * (MANY // 16), "the view holds nothing"),
         (b"".join(b'View"%d"{}' % k for k in range(MANY // 32)), "32768 views, 0, 1, .* 19, ..; choose"),
     ],
     ids=lambda value: value[:18].decode("ascii", "replace") if isinstance(value, bytes) else "",
