@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from ..arrays import Floats, Ints
 from ..errors import MeshReadError
+from .number_table import numbers_with_commas
 from .pos_text import BETWEEN, shown
 
 CORNERS = {b"SP": 1, b"SL": 2, b"ST": 3, b"SQ": 4, b"SL2": 2, b"ST2": 3, b"SQ2": 4}
@@ -38,11 +39,9 @@ class Elements(NamedTuple):
 class ElementReader:
     """Reads the elements of one view, part by part; of every element of a kind as many numbers are wanted."""
 
-    def __init__(self, numbers: Callable[[bytes, int], Floats | None]) -> None:
-        """`numbers` reads the n numbers of a text with commas between, None where they are none."""
+    def __init__(self) -> None:
         self.kinds: set[str] = set()
         """All kinds seen so far, those without scalars too."""
-        self._numbers = numbers
         self._widths: dict[bytes, tuple[int, int]] = {}
 
     def read(self, text: bytes) -> Iterator[Elements]:
@@ -64,7 +63,9 @@ class ElementReader:
         n_coordinates, n_values = self._widths.setdefault(kind, (int(least[0]), int(least[1])))
         width = n_coordinates + n_values
         is_even = (n_commas == (n_coordinates - 1, n_values - 1)).all() and n_coordinates >= 3 * n
-        numbers = self._numbers(_rows(text, ends), width * len(ends)) if is_even and n_values >= n else None
+        numbers = (
+            numbers_with_commas(_rows(text, ends), width * len(ends)) if is_even and n_values >= n else None
+        )
         if numbers is None:
             raise _wrong(text, kind, ends, n_coordinates, n_values)
         table = numbers.reshape(-1, width)

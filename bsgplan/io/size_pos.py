@@ -17,7 +17,6 @@ Delaunay triangulation. Vectors, tensors, volumes and texts are left out.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -28,7 +27,6 @@ from ..mesh.quads import split_quads
 from ..sizing.background import Background
 from .chunks import pieces
 from .growing import Growing
-from .number_table import numbers_with_commas
 from .pos_elements import ElementReader
 from .pos_text import parts
 
@@ -36,14 +34,12 @@ BUFFER = 2**18
 """Bytes read at a time."""
 MOST_NAMES = 20
 """Names of views, or kinds of elements, that a message tells."""
-LARGE = 2**24
-"""Bytes of a file from which on its numbers are read by compiled code, half a second to load."""
 
 
 def read_pos(path: Path, name: str | None) -> Background:
     """Return the sizes of one view of a parsed .pos file; name is needed where it has several."""
     names: dict[str, int] = {}
-    heaps, reader = dict[str, _Heap](), ElementReader(_numbers_reader(path))
+    heaps, reader = dict[str, _Heap](), ElementReader()
     for part in parts(pieces(path, BUFFER)):
         first = names.setdefault(part.name, part.view)
         if part.view != (0 if name is None else first) or name not in (None, part.name):
@@ -66,14 +62,6 @@ def read_pos(path: Path, name: str | None) -> Background:
         return Background(places, values) if n_corners == 3 else joined(places[:, 0], values[:, 0])
     there = ", ".join(sorted(reader.kinds)[:MOST_NAMES]) or "nothing"
     raise MeshReadError(f"the view holds {there}; give scalars on points or triangles (SP, SL, ST, SQ)")
-
-
-def _numbers_reader(path: Path) -> Callable[[bytes, int], Floats | None]:
-    if path.stat().st_size < LARGE:
-        return numbers_with_commas
-    from .decimals import decimals  # loads the compiler
-
-    return decimals
 
 
 class _Heap:

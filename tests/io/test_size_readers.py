@@ -51,8 +51,8 @@ def views(draw) -> str:
 BUFFERS = st.sampled_from([1 << 20, 300, 97, 31, 7])
 
 
-@given(text=views(), name=st.sampled_from([None, "h"]), buffer=BUFFERS, is_large=st.booleans())
-def test_a_view_is_that_of_the_twin_whatever_the_buffer(tmp_path, text, name, buffer, is_large):
+@given(text=views(), name=st.sampled_from([None, "h"]), buffer=BUFFERS)
+def test_a_view_is_that_of_the_twin_whatever_the_buffer(tmp_path, text, name, buffer):
     path = tmp_path / "h.pos"
     path.write_text(text)
     try:
@@ -61,7 +61,6 @@ def test_a_view_is_that_of_the_twin_whatever_the_buffer(tmp_path, text, name, bu
         places = values = None
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(size_pos, "BUFFER", buffer)
-        patch.setattr(size_pos, "LARGE", 0 if is_large else 1 << 40)
         patch.setattr(size_pos, "joined", lambda points, sizes: (points[:, None], sizes[:, None]))
         patch.setattr(size_pos, "Background", lambda corners, sizes: (corners, sizes))
         if values is None:
