@@ -14,6 +14,7 @@ from ..errors import MeshReadError
 
 LARGEST_WHOLE = 2**53
 """Largest whole number that passes exactly through a float."""
+BLANKS = b" \t\n\v\f\r"
 FORTRAN_EXPONENT = bytes.maketrans(b"Dd", b"Ee")
 
 
@@ -53,7 +54,8 @@ def numbers_with_commas(text: bytes, n: int) -> Floats | None:
     >>> numbers_with_commas(b"1, 2.5", 2), numbers_with_commas(b"1 2", 2)
     (array([1. , 2.5]), None)
     """
-    values = _parsed(text, np.float64, separator=",") if text.strip() else None  # numpy reads -1 of blanks
+    words = b",%b," % text.translate(None, BLANKS)
+    values = None if b",," in words else _parsed(text, np.float64, separator=",")  # numpy reads blanks as -1
     return values if values is not None and len(values) == n else None
 
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from bsgplan.errors import MeshReadError
 from bsgplan.io import chunks
 from bsgplan.io.chunks import Lines, n_lines_of
-from bsgplan.io.number_table import LARGEST_WHOLE, numbers_of
+from bsgplan.io.number_table import LARGEST_WHOLE, numbers_of, numbers_with_commas
 
 COLUMNS = ("a", "b", "c")
 WORDS = st.integers(-(10**20), 10**20).map(str) | st.floats(allow_nan=False, allow_infinity=False).map(repr)
@@ -71,3 +71,14 @@ def test_a_whole_number_too_large_for_an_integer_is_a_float(number):
 def test_numbers_that_are_whole_stay_integers():
     assert numbers_of(b"1 -2\n3").dtype == np.int64
     assert numbers_of(b"1 -2.0\n3").dtype == np.float64
+
+
+@pytest.mark.parametrize(
+    "text", ["", " ", " ,1", "1, ", "1,\n,1", ",", "1,", ",1", "1,,1", "1 1", "1,-", "1,x"]
+)
+def test_a_blank_between_commas_is_no_number(text):
+    """By numpy it is -1."""
+    n = text.count(",") + 1
+    assert numbers_with_commas(text.encode(), n) is None
+    assert numbers_with_commas(text.encode(), n + 1) is None
+    assert numbers_with_commas(b" 1 ,\n2,-3e1", 3).tolist() == [1, 2, -30]

@@ -68,6 +68,7 @@ def test_one_of_several_views_is_chosen_by_name(square):
     [
         ('View "h" {ST(0,0,0,1,0,0,1,1,0){1,x,3};};', "ST with values '1,x,3'"),
         ('View "h" {ST(0,0,0,1,0,0,1,1){1,2,3};};', "ST with coordinates"),
+        ('View "h" {ST(0, ,0,1,0,0,1,1,0){1,2,3};};', "ST with coordinates '0, ,0,1"),
         ('View "h" {ST(0,0,0,1,0,0,1,1,0){1,2};};', "ST with values '1,2'"),
         ('View "h" {ST(0,0,0,1,0,0,1,1,0){1,2,3}; ST(0,0,0,1,', "between the elements"),
         ('View "h" {VT(0,0,0,1,0,0,1,1,0){1,2,3,1,2,3,1,2,3};};', "holds VT; give scalars"),
