@@ -16,11 +16,19 @@ from .cooling import Schedule, cooled
 from .domain import Domain
 from .placed import PlacedMesh
 from .target import n_blocks
-from .weights import BEND_WEIGHT, SIZE_WEIGHT
+from .weights import BLOCKS, SIZE_WEIGHT
 
 SCHEDULE = Schedule(
-    hot=0.4, cold=0.03, moves=8, steered=8, gain=0.4, most_shift=0.2, most_size_weight=SIZE_WEIGHT, credit=1.0
-)  # fmt: skip
+    weights=BLOCKS,
+    hot=0.45,
+    cold=0.03,
+    moves=10,
+    steered=8,
+    gain=0.4,
+    most_shift=0.2,
+    most_size_weight=SIZE_WEIGHT,
+    credit=1.0,
+)
 """How layouts are annealed at the default tolerance of sizes."""
 
 MOST_SIZE_WEIGHT = 3.0
@@ -69,12 +77,12 @@ def annealed(
         n_sweeps=max(effort, 1),
         n_wanted=n_blocks(domain, np.exp(log_size)),
         rms_wanted=float(np.log(size_tolerance)),
-        bend_weight=BEND_WEIGHT,
         seed=seed,
         progress=progress,
         is_stopped=is_stopped,
     )
-    state = load(domain, end.mesh, log_size, seed=seed, size_weight=end.size_weight, offset=end.offset)
+    weights = replace(BLOCKS, size=end.size_weight)
+    state = load(domain, end.mesh, log_size, seed=seed, weights=weights, offset=end.offset)
     polish(state, POLISH)
     return unload(state)
 

@@ -7,7 +7,7 @@ raised while edges stray more than asked.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from ..sizing.misfit import size_misfit
 from .domain import Domain
 from .order import in_order
 from .placed import PlacedMesh
-from .weights import SIZE_WEIGHT
+from .weights import Weights
 
 STAGES = 10
 """The annealing halts so many times to relax everything, to renew energies and to steer."""
@@ -36,6 +36,8 @@ QUENCH = 5
 class Schedule:
     """How an annealing cools and how it is steered."""
 
+    weights: Weights
+    """What counts how much; that of sizes is raised while edges stray."""
     hot: float
     """First temperature, in units of the energy of a triangle."""
     cold: float
@@ -79,12 +81,11 @@ def cooled(
     n_sweeps: int,
     n_wanted: float,
     rms_wanted: float,
-    bend_weight: float,
     seed: int,
     progress: Callable[[str, float], None],
     is_stopped: Callable[[], bool] = lambda: False,
 ) -> Cooled:
-    """Return a mesh annealed in stages, n_sweeps in all; its bends weigh bend_weight.
+    """Return a mesh annealed in stages, n_sweeps in all.
 
     log_size is given at the domain's points, in its own unit. n_wanted triangles are steered to, and
     rms_wanted of log(edge / wanted edge). progress hears of the number of irregular vertices and the share of
@@ -95,13 +96,13 @@ def cooled(
     from .kernel.schedule import cool, falling, give_credit
     from .kernel.sweeps import relax_all
 
-    first_weight = min(SIZE_WEIGHT, schedule.most_size_weight)
+    first_weight = min(schedule.weights.size, schedule.most_size_weight)
     offset, weight = schedule.first_shift, first_weight
     n_stages = min(STAGES, n_sweeps)
     for stage, part in enumerate(np.array_split(falling(schedule.hot, schedule.cold, n_sweeps), n_stages)):
         state = load(
             domain, in_order(mesh), log_size,
-            seed=seed + stage, size_weight=weight, bend_weight=bend_weight, offset=offset,
+            seed=seed + stage, weights=replace(schedule.weights, size=weight), offset=offset,
         )  # fmt: skip
         has_plenty = stage > 0 and len(mesh.triangles) > PLENTY * n_wanted
         if schedule.credit and not has_plenty:

@@ -16,6 +16,7 @@ from .domain import Domain
 from .kinds import CORNER, INTERIOR, JUNCTION, SLIDING
 from .lack import POOR, lacks, qualities
 from .placed import PlacedMesh, grown
+from .weights import TRIANGLES
 
 RINGS = 4
 """How many triangles from a poor one nodes move."""
@@ -25,6 +26,9 @@ POWERS = ((1.0, 2.0, 4.0, 8.0), (1.0,), (1.0,), (1.0,), (1.0, 2.0))
 
 SWEEPS = 80
 """Relaxations of every such node in a round."""
+
+QUALITY = replace(TRIANGLES, size=0.0, bend=0.0)
+"""Weights of quality alone."""
 
 FINER = -1.0
 """Added to the log of the wanted edge: steps are short, and thin triangles tell inverted ones from flat."""
@@ -74,7 +78,7 @@ def _relaxed(
     from .kernel.schedule import polish
 
     held = replace(mesh, kinds=np.where(~moves & (mesh.kinds != JUNCTION), CORNER, mesh.kinds))
-    state = load(domain, held, log_size, room=1.0, size_weight=0.0, bend_weight=0.0, offset=FINER)
+    state = load(domain, held, log_size, room=1.0, weights=QUALITY, offset=FINER)
     polish(state, SWEEPS // len(powers), powers)
     return unload(state)
 

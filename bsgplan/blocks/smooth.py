@@ -12,6 +12,7 @@ from .ease import eased
 from .kinds import CORNER, SLIDING
 from .lack import merit
 from .placed import PlacedMesh
+from .weights import TRIANGLES, Weights
 
 SWEEPS = 7
 """Relaxations of every node at each exponent of the polish."""
@@ -25,8 +26,8 @@ def smooth(domain: Domain, mesh: PlacedMesh, log_size: Floats) -> PlacedMesh:
     """
     best = mesh
     fixed = replace(mesh, kinds=np.where(mesh.kinds == SLIDING, CORNER, mesh.kinds))
-    for size_weight in (0.5, 0.0):
-        moved = _relaxed(domain, fixed, log_size, size_weight)
+    for size_weight in (TRIANGLES.size, 0.0):
+        moved = _relaxed(domain, fixed, log_size, replace(TRIANGLES, size=size_weight, bend=0.0))
         if merit(moved) >= merit(best):
             best = replace(mesh, points=moved.points)
         if merit(moved) >= merit(mesh):
@@ -34,10 +35,10 @@ def smooth(domain: Domain, mesh: PlacedMesh, log_size: Floats) -> PlacedMesh:
     return eased(domain, best, log_size)
 
 
-def _relaxed(domain: Domain, mesh: PlacedMesh, log_size: Floats, size_weight: float) -> PlacedMesh:
+def _relaxed(domain: Domain, mesh: PlacedMesh, log_size: Floats, weights: Weights) -> PlacedMesh:
     from .kernel.exchange import load, unload
     from .kernel.schedule import polish
 
-    state = load(domain, mesh, log_size, room=1.0, size_weight=size_weight, bend_weight=0.0)
+    state = load(domain, mesh, log_size, room=1.0, weights=weights)
     polish(state, SWEEPS)
     return unload(state)

@@ -13,7 +13,7 @@ import numpy as np
 from ..arrays import Floats
 from ..blocks.cooling import Schedule, cooled
 from ..blocks.placed import PlacedMesh
-from ..blocks.weights import BEND_WEIGHT
+from ..blocks.weights import TRIANGLES
 from .by_strips import Tries, with_strips
 from .cut import Cut
 from .mend import mended
@@ -22,8 +22,16 @@ from .restore import restored
 from .wish import Wish
 
 SCHEDULE = Schedule(
-    hot=0.35, cold=0.03, moves=2, steered=9, gain=0.3, most_shift=0.2, most_size_weight=2.0, first_shift=-0.05
-)  # fmt: skip
+    weights=TRIANGLES,
+    hot=0.35,
+    cold=0.03,
+    moves=2,
+    steered=9,
+    gain=0.3,
+    most_shift=0.2,
+    most_size_weight=2.0,
+    first_shift=-0.05,
+)
 """How parts are annealed: a mesh of few defects has fewer triangles, and they follow a shift slowly."""
 
 SMALL, MOST_FOLD = 16_000, 4.0
@@ -70,7 +78,6 @@ def remeshed(
         n_sweeps=n_sweeps,
         n_wanted=wish.n_triangles,
         rms_wanted=max(wish.size_misfit, 1e-6),
-        bend_weight=BEND_WEIGHT,
         seed=seed,
         progress=lambda text, share: progress(text, share * MAIN),
         is_stopped=is_stopped,

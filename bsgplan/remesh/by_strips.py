@@ -17,7 +17,7 @@ from ..blocks.cooling import Schedule, cooled, size_rms
 from ..blocks.domain import Domain
 from ..blocks.lack import qualities
 from ..blocks.placed import PlacedMesh
-from ..blocks.weights import BEND_WEIGHT
+from ..blocks.weights import TRIANGLES
 from ..mesh import Mesh
 from ..regions.borders import corner_shares, smooth_borders
 from ..regions.labels import connected
@@ -26,7 +26,16 @@ from .polish import polished
 from .strips import stripped
 from .wish import Wish
 
-CLEANUP = Schedule(hot=0.1, cold=0.03, moves=2, steered=9, gain=0.3, most_shift=0.2, most_size_weight=2.0)
+CLEANUP = Schedule(
+    weights=TRIANGLES,
+    hot=0.1,
+    cold=0.03,
+    moves=2,
+    steered=9,
+    gain=0.3,
+    most_shift=0.2,
+    most_size_weight=2.0,
+)
 """How strips are annealed: from a lower temperature than a mesh of chance."""
 
 BORDER_ROUNDS = 2
@@ -87,7 +96,7 @@ def with_strips(
         made = cooled(
             domain, start, log_size, CLEANUP,
             n_sweeps=n_sweeps, n_wanted=n_wanted, rms_wanted=wish.size_misfit,
-            bend_weight=BEND_WEIGHT, seed=seed + number, progress=lambda _, __: None, is_stopped=is_stopped,
+            seed=seed + number, progress=lambda _, __: None, is_stopped=is_stopped,
         )  # fmt: skip
         found = polished(domain, made.mesh, log_size, size_weight=made.size_weight, offset=made.offset)
         if _is_better(domain, found, patch.mesh, log_size, wish, n_wanted):

@@ -17,6 +17,7 @@ from ..blocks.domain import Domain
 from ..blocks.kinds import FROZEN, FROZEN_SIDE
 from ..blocks.lack import qualities
 from ..blocks.placed import PlacedMesh, grown
+from ..blocks.weights import TRIANGLES
 from ..mesh.edges import edge_keys
 from ..mesh.topology import connected_labels, topology
 
@@ -164,11 +165,12 @@ def annealed(
     """Return a patch annealed by itself, for its worst triangle more than for its valences."""
     from ..blocks.kernel.exchange import load, unload
     from ..blocks.kernel.schedule import cool, falling, polish
-    from ..blocks.kernel.state import POWER, VALENCES
+    from ..blocks.kernel.state import POWER
     from ..blocks.kernel.sweeps import renew
 
-    state = load(domain, mesh, log_size, room=3.0, seed=seed, offset=offset)
-    state.scalar[VALENCES], state.scalar[POWER] = valence_weight, POWER_OF_PATCHES
+    weights = replace(TRIANGLES, valence=valence_weight)
+    state = load(domain, mesh, log_size, room=3.0, seed=seed, weights=weights, offset=offset)
+    state.scalar[POWER] = POWER_OF_PATCHES
     renew(state)
     cool(state, falling(HOT, COLD, SWEEPS), MOVES * len(mesh.triangles))
     polish(state, POLISH)

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from ..arrays import Floats
 from ..blocks.anneal import POLISH
 from ..blocks.domain import Domain
 from ..blocks.lack import qualities
 from ..blocks.placed import PlacedMesh
+from ..blocks.weights import TRIANGLES
 
 
 def polished(
@@ -19,7 +22,8 @@ def polished(
     from ..blocks.kernel.exchange import load, unload
     from ..blocks.kernel.schedule import polish
 
-    state = load(domain, mesh, log_size, room=1.0, size_weight=size_weight, offset=offset)
+    weights = replace(TRIANGLES, size=size_weight)
+    state = load(domain, mesh, log_size, room=1.0, weights=weights, offset=offset)
     polish(state, POLISH)
     moved = unload(state)
     return moved if qualities(moved).min() > qualities(mesh).min() else mesh

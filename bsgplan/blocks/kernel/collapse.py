@@ -5,13 +5,13 @@ from __future__ import annotations
 from ...compiled import inner
 from ..kinds import CORNER, INTERIOR, NO_CURVE, SLIDING
 from .bend import side_arcs
-from .energy import refresh_triangle, set_valence
+from .energy import drop_valence, refresh_triangle, set_valence
 from .fan import corner_of, fan_of, n_common, side_to
 from .flip import MOST
 from .journal import TRIANGLE_ROW, VERTEX_ROW, give_up, keep_triangle, keep_vertex
 from .rows import anchor, relink
-from .size_at import goal_on_curve, look_up, place_on_curve
-from .state import DELTA, GOAL, GONE, KIND, VALENCE, State
+from .size_at import goal_on_curve, grid_goal_on_curve, look_up, place_on_curve
+from .state import DELTA, GOAL, GONE, GRID_GOAL, KIND, VALENCE, State
 
 
 @inner
@@ -90,7 +90,7 @@ def collapse(state: State, t: int, side: int, keep: int) -> bool:
         _remove(state, n, side_to(state, n, t), keep)
     keep_vertex(state, gone)
     give_up(state, VERTEX_ROW, gone)
-    set_valence(state, gone, int(state.value[gone, GOAL]))
+    drop_valence(state, gone)
     set_valence(state, keep, valence)
     m, _ = fan_of(state, keep, GONE)
     for i in range(m):
@@ -111,6 +111,7 @@ def _move(state: State, t: int, side: int, keep: int, gone: int, code: int) -> N
         keep_vertex(state, keep)
         place_on_curve(state, keep, curve, 0.5 * (start + end))
         state.value[keep, GOAL] = goal_on_curve(state, keep)
+        state.value[keep, GRID_GOAL] = grid_goal_on_curve(state, keep)
 
 
 @inner

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...compiled import inner
-from ..kinds import CORNER, HALF_EDGE, JUNCTION
+from ..kinds import CORNER, HALF_EDGE, JUNCTION, SLIDING
 from .bend import bend
 from .journal import keep_triangle, keep_vertex
 from .shape import SHAPE, soft
@@ -22,7 +22,9 @@ from .state import (
     DELTA_VALENCES,
     ENERGY,
     GOAL,
+    GRID_GOAL,
     KIND,
+    OF_GRID,
     POWER,
     QUALITY,
     SIZE,
@@ -70,7 +72,17 @@ def triangle_energy(state: State, t: int) -> float:
 @inner
 def valence_energy(state: State, v: int) -> float:
     """Return the energy of a vertex's valence."""
-    return state.scalar[VALENCES] * cost_of_valence(off_goal(state, v, state.vertex[v, VALENCE]))
+    return state.scalar[VALENCES] * valence_cost(state, v, state.vertex[v, VALENCE])
+
+
+@inner
+def valence_cost(state: State, v: int, valence: int) -> float:
+    """Return what a valence would cost at a vertex, before weighting."""
+    cost = cost_of_valence(off_goal(state, v, valence))
+    share = state.scalar[OF_GRID]
+    if share > 0.0 and state.vertex[v, KIND] == SLIDING:
+        return (1.0 - share) * cost + share * cost_of_valence(abs(valence - state.value[v, GRID_GOAL]))
+    return cost
 
 
 @inner
@@ -113,6 +125,14 @@ def set_valence(state: State, v: int, valence: int) -> None:
     state.scalar[DELTA] += energy - state.value[v, ENERGY]
     state.scalar[DELTA_VALENCES] += energy - state.value[v, ENERGY]
     state.value[v, ENERGY] = energy
+
+
+@inner
+def drop_valence(state: State, v: int) -> None:
+    """Take the energy of a vertex that goes out of the sum, inside a transaction; its row is written down."""
+    state.scalar[DELTA] -= state.value[v, ENERGY]
+    state.scalar[DELTA_VALENCES] -= state.value[v, ENERGY]
+    state.value[v, ENERGY] = 0.0
 
 
 @inner

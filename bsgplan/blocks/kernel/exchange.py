@@ -7,7 +7,7 @@ import numpy as np
 from ...arrays import Floats
 from ..domain import Domain
 from ..placed import PlacedMesh
-from ..weights import BEND_WEIGHT, SHAPE_WEIGHT, SIZE_WEIGHT, VALENCE_WEIGHT
+from ..weights import BLOCKS, Weights
 from .state import (
     ARC,
     BEND,
@@ -17,6 +17,7 @@ from .state import (
     KIND,
     N_TRIANGLES,
     N_VERTICES,
+    OF_GRID,
     OFFSET,
     POWER,
     QUALITY,
@@ -36,8 +37,7 @@ def load(
     *,
     room: float = 2.0,
     seed: int = 0,
-    size_weight: float = SIZE_WEIGHT,
-    bend_weight: float = BEND_WEIGHT,
+    weights: Weights = BLOCKS,
     offset: float = 0.0,
 ) -> State:
     """Return the state of a mesh on a domain whose wanted edge length has that log at its points."""
@@ -48,8 +48,8 @@ def load(
         domain, log_size, mesh.points, rows, vertices, mesh.arcs, mesh.goals, room=room, seed=seed
     )
     state.scalar[OFFSET], state.scalar[POWER] = offset, 1.0
-    state.scalar[QUALITY], state.scalar[SIZE] = SHAPE_WEIGHT, size_weight
-    state.scalar[VALENCES], state.scalar[BEND] = VALENCE_WEIGHT, bend_weight
+    state.scalar[QUALITY], state.scalar[SIZE], state.scalar[BEND] = 1.0, weights.size, weights.bend
+    state.scalar[VALENCES], state.scalar[OF_GRID] = weights.valence, weights.of_grid
     prepare(state)
     return state
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ...compiled import inner
 from ..kinds import CORNER, INTERIOR, NO_CURVE
-from .energy import cost_of_valence, off_goal, refresh_triangle, set_valence
+from .energy import refresh_triangle, set_valence, valence_cost
 from .fan import are_joined, side_to
 from .rows import FREE, anchor, put_triangle, relink
 from .state import KIND, VALENCE, State
@@ -52,7 +52,7 @@ def flip_gain(state: State, t: int, side: int) -> float:
 @inner
 def _change(state: State, v: int, by: int) -> float:
     valence = state.vertex[v, VALENCE]
-    return cost_of_valence(off_goal(state, v, valence)) - cost_of_valence(off_goal(state, v, valence + by))
+    return valence_cost(state, v, valence) - valence_cost(state, v, valence + by)
 
 
 @inner

@@ -50,6 +50,7 @@ def keep_vertex(state: State, v: int) -> None:
     whole[0], whole[1] = 0, v
     for i in range(5):
         whole[2 + i] = state.vertex[v, i]
+    for i in range(6):
         real[2 + i] = state.value[v, i]
     real[0], real[1] = state.point[v, 0], state.point[v, 1]
     state.counter[N_LOG] = k + 1
@@ -79,6 +80,7 @@ def rollback(state: State) -> None:
         if whole[0] == 0:
             for i in range(5):
                 state.vertex[row, i] = whole[2 + i]
+            for i in range(6):
                 state.value[row, i] = real[2 + i]
             state.point[row, 0], state.point[row, 1] = real[0], real[1]
         else:

@@ -6,7 +6,7 @@ import numpy as np
 
 from ...compiled import inner
 from ..kinds import SLIDING
-from .state import ARC, CURVE, HINT, KIND, OFFSET, State, U, W
+from .state import ARC, CURVE, HINT, KIND, OFFSET, PARTS, State, U, W
 from .walk import walk
 
 
@@ -40,6 +40,27 @@ def goal_on_curve(state: State, v: int) -> float:
     """Return the valence that suits a sliding vertex where it is."""
     _, k, share = polyline_place(state, state.vertex[v, CURVE], state.value[v, ARC])
     return state.curve_point[k + 1 if share > 0.5 else k, 4]
+
+
+@inner
+def grid_goal_on_curve(state: State, v: int) -> float:
+    """Return the valence that suits a sliding vertex in the grid: for the angle of its two sides there."""
+    c, arc = state.vertex[v, CURVE], state.value[v, ARC]
+    if state.curve[c, 3] == 1:
+        return 6.0
+    step = np.exp(state.value[v, U] - state.scalar[OFFSET]) / PARTS
+    ax, ay = _chord(state, v, c, arc - step)
+    bx, by = _chord(state, v, c, arc + step)
+    turn = np.arctan2(bx * ay - by * ax, -(ax * bx + ay * by))
+    return max(3.0, np.rint(4.0 - turn / (np.pi / 3.0)))
+
+
+@inner
+def _chord(state: State, v: int, c: int, arc: float) -> tuple[float, float]:
+    _, k, share = polyline_place(state, c, arc)
+    a, b = state.curve_point[k], state.curve_point[k + 1]
+    x, y = a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])
+    return x - state.point[v, 0], y - state.point[v, 1]
 
 
 @inner

@@ -10,8 +10,8 @@ from .fan import side_to
 from .flip import MOST
 from .journal import keep_vertex, take_triangle, take_vertex
 from .rows import FREE, anchor, put_triangle, relink
-from .size_at import goal_on_curve, look_up
-from .state import ARC, CURVE, ENERGY, GOAL, HINT, KIND, TRIANGLE, VALENCE, State
+from .size_at import goal_on_curve, grid_goal_on_curve, look_up
+from .state import ARC, CURVE, ENERGY, GOAL, GRID_GOAL, HINT, KIND, TRIANGLE, VALENCE, State
 
 
 @inner
@@ -86,3 +86,4 @@ def _place(state: State, m: int, t: int, side: int, b: int, c: int, code: int) -
     look_up(state, m)
     if code >= 0:
         state.value[m, GOAL] = goal_on_curve(state, m)
+        state.value[m, GRID_GOAL] = grid_goal_on_curve(state, m)

@@ -19,10 +19,11 @@ from ..domain import Domain
 TRIANGLE, VALENCE, KIND, CURVE, HINT = range(5)
 """Columns of `vertex`: a triangle at it, number of edges, kind, curve (or -1), domain triangle near it."""
 
-U, W, ARC, GOAL, ENERGY = range(5)
-"""Columns of `value`: log of the wanted edge length, exp(-2 u), place on its curve, goal valence, energy."""
+U, W, ARC, GOAL, ENERGY, GRID_GOAL = range(6)
+"""Columns of `value`: log of the wanted edge length, exp(-2 u), place on its curve, goal valence, energy,
+goal valence in the grid that the blocks will be cut into."""
 
-DELTA, DELTA_VALENCES, TEMPERATURE, OFFSET, POWER, QUALITY, SIZE, VALENCES, BEND, CREDIT = range(10)
+DELTA, DELTA_VALENCES, TEMPERATURE, OFFSET, POWER, QUALITY, SIZE, VALENCES, BEND, CREDIT, OF_GRID = range(11)
 """Entries of `scalar`: energy change of the move, of its valences alone, temperature, added to u, weights,
 what each triangle is credited with."""
 
@@ -52,7 +53,7 @@ class State(NamedTuple):
     point: Floats
     """Coordinates, (room, 2)."""
     value: Floats
-    """Further numbers of a vertex, (room, 5): columns U .. ENERGY."""
+    """Further numbers of a vertex, (room, 6): columns U .. GRID_GOAL."""
     vertex: Ints
     """Whole numbers of a vertex, (room, 5): columns TRIANGLE .. HINT; TRIANGLE is -1 in a free row."""
     triangle: Ints
@@ -69,7 +70,7 @@ class State(NamedTuple):
     log_int: Ints
     """Journal, (LOG_ROWS, 11): what (0 vertex, 1 triangle), row, the old whole numbers."""
     log_float: Floats
-    """Journal, (LOG_ROWS, 7): the old coordinates and numbers."""
+    """Journal, (LOG_ROWS, 8): the old coordinates and numbers."""
     taken: Ints
     """Rows taken in this transaction, (LOG_ROWS, 2): what, row."""
     freed: Ints
@@ -103,16 +104,16 @@ def new_state(domain: Domain, log_size: Floats, points: Floats, rows: Ints, vert
     most_vertices, most_triangles = int(n_vertices * room) + 100, int(n_triangles * room) + 200
     state = State(
         point=_padded(points, most_vertices),
-        value=np.zeros((most_vertices, 5)),
+        value=np.zeros((most_vertices, 6)),
         vertex=_padded(vertices, most_vertices),
         triangle=_padded(rows, most_triangles),
         energy=np.zeros(most_triangles),
         free_vertex=np.empty(most_vertices, dtype=np.int64),
         free_triangle=np.empty(most_triangles, dtype=np.int64),
         counter=np.zeros(9, dtype=np.int64),
-        scalar=np.zeros(10),
+        scalar=np.zeros(11),
         log_int=np.empty((LOG_ROWS, 11), dtype=np.int64),
-        log_float=np.empty((LOG_ROWS, 7)),
+        log_float=np.empty((LOG_ROWS, 8)),
         taken=np.empty((LOG_ROWS, 2), dtype=np.int64),
         freed=np.empty((LOG_ROWS, 2), dtype=np.int64),
         fan=np.empty((8, FAN), dtype=np.int64),

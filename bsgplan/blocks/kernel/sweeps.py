@@ -10,12 +10,13 @@ from .energy import is_upright, triangle_energy, valence_energy
 from .flip import can_flip, flip
 from .journal import begin, commit, rollback
 from .relax import relax_vertex
-from .size_at import look_up
+from .size_at import grid_goal_on_curve, look_up
 from .state import (
     CURVE,
     DELTA,
     ENERGY,
     GOAL,
+    GRID_GOAL,
     KIND,
     N_TRIANGLES,
     N_VERTICES,
@@ -70,6 +71,9 @@ def _fit_goals(state: State) -> None:
         if _is_fitted(state, v):
             fitting = 1.0 + state.value[v, GOAL] / (np.pi / 3.0)
             state.value[v, GOAL] = max(3.0, np.rint(fitting)) if state.vertex[v, KIND] == SLIDING else fitting
+        if state.vertex[v, TRIANGLE] >= 0:
+            slides = state.vertex[v, KIND] == SLIDING
+            state.value[v, GRID_GOAL] = grid_goal_on_curve(state, v) if slides else state.value[v, GOAL]
 
 
 @inner
