@@ -24,9 +24,10 @@ STAGES = 10
 WATCHED = 2
 """Stages before the weight of sizes is steered: edges stray while it is hot."""
 
-PLENTY = 1.1
-"""From so many times the triangles wanted on they get no credit, but in the first stage, in which many go:
-where fjords make some dear, the mean energy would pay for more of them anywhere."""
+PULL, MOST_CREDIT = 5.0, 2.0
+"""By how much of itself the credit grows for each fall of the log of triangles over wanted, and to how many
+times itself at most. It is none where there are too many by more than a fifth: where fjords make some dear,
+the mean energy would pay for more of them anywhere."""
 
 QUENCH = 5
 """Cold sweeps of an annealing that is stopped early."""
@@ -57,7 +58,8 @@ class Schedule:
     credit: float = 0.0
     """Share of the mean energy of a triangle, that of vertices included, that each is credited with.
 
-    Every triangle costs something, so without credit few large ones cost less than those that are wanted."""
+    Every triangle costs something, so without credit few large ones cost less than those that are wanted. The
+    mean is taken anew before every sweep, as warm as the mesh is then, and `pull` steers it to their number."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,7 +95,7 @@ def cooled(
     sweeps, no more.
     """
     from .kernel.exchange import load, unload
-    from .kernel.schedule import cool, falling, give_credit
+    from .kernel.schedule import cool, falling, give_credit, n_triangles
     from .kernel.sweeps import relax_all
 
     first_weight = min(schedule.weights.size, schedule.most_size_weight)
@@ -104,11 +106,11 @@ def cooled(
             domain, in_order(mesh), log_size,
             seed=seed + stage, weights=replace(schedule.weights, size=weight), offset=offset,
         )  # fmt: skip
-        has_plenty = stage > 0 and len(mesh.triangles) > PLENTY * n_wanted
-        if schedule.credit and not has_plenty:
-            give_credit(state, schedule.credit)
         n_moves = schedule.moves * len(mesh.triangles)
-        cool(state, part, n_moves, is_stopped=is_stopped)
+        for temperature in part:
+            if schedule.credit:
+                give_credit(state, schedule.credit * pull(n_triangles(state), n_wanted))
+            cool(state, [temperature], n_moves, is_stopped=is_stopped)
         if is_stopped():
             cool(state, [schedule.cold] * QUENCH, n_moves)
         relax_all(state, 2)
@@ -124,6 +126,15 @@ def cooled(
         if is_stopped():
             break
     return Cooled(mesh, offset, weight)
+
+
+def pull(n: int, n_wanted: float) -> float:
+    """Return how many times its credit each of n triangles gets where n_wanted are wanted.
+
+    >>> pull(100, 100), pull(130, 100), pull(60, 100)
+    (1.0, 0.0, 2.0)
+    """
+    return float(np.clip(1.0 + PULL * np.log(n_wanted / n), 0.0, MOST_CREDIT))
 
 
 def size_rms(domain: Domain, mesh: PlacedMesh, log_size: Floats) -> float:

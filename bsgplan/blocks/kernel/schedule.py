@@ -8,7 +8,7 @@ import numpy as np
 
 from ...arrays import Floats
 from .anneal import anneal
-from .state import CREDIT, N_TRIANGLES, POWER, TEMPERATURE, State
+from .state import CREDIT, N_FREE_TRIANGLES, N_TRIANGLES, POWER, TEMPERATURE, State
 from .sweeps import relax_all, renew
 
 OUTLIER = 100.0
@@ -28,17 +28,23 @@ def falling(hot: float, cold: float, n: int) -> Floats:
 
 
 def give_credit(state: State, share: float) -> None:
-    """Credit each triangle of a state just loaded with a share of their mean energy, vertices' included.
+    """Credit each triangle of a state with a share of their mean energy, vertices' included.
 
     Every triangle costs something, so that without credit few large ones cost less than as many as wanted. Of
     one that costs OUTLIER times the median, folded over others in a fjord, no more than that counts.
     """
     state.scalar[CREDIT] = 0.0
     total = renew(state)
-    costs = state.energy[: state.counter[N_TRIANGLES]]
+    rows = state.counter[N_TRIANGLES]
+    costs = state.energy[:rows][state.triangle[:rows, 0] >= 0]
     beyond = np.maximum(costs - OUTLIER * np.median(costs), 0.0).sum()
     state.scalar[CREDIT] = share * (total - beyond) / len(costs)
     renew(state)
+
+
+def n_triangles(state: State) -> int:
+    """Return the number of triangles."""
+    return int(state.counter[N_TRIANGLES] - state.counter[N_FREE_TRIANGLES])
 
 
 def cool(
