@@ -59,7 +59,7 @@ class Schedule:
     """Share of the mean energy of a triangle, that of vertices included, that each is credited with.
 
     Every triangle costs something, so without credit few large ones cost less than those that are wanted. The
-    mean is taken anew before every sweep, as warm as the mesh is then, and `pull` steers it to their number."""
+    mean is taken anew before every sweep, as warm as the mesh is then, and `pull` steers by it."""
 
 
 @dataclass(frozen=True, eq=False)

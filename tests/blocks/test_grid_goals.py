@@ -39,11 +39,15 @@ valence_cost = probe(energy.valence_cost)
 
 def loaded(domain: Domain, size: float) -> tuple[State, np.ndarray]:
     """A state that wants edges of one size, and its sliding vertices on the hole."""
-    sizes = np.full(domain.n_points, size)
+    sizes = np.full(domain.n_points, size / domain.scale)
     state = load(domain, place(domain, *find_corners(domain, sizes)), np.log(sizes))
-    from_middle = np.hypot(*(state.point[: state.counter[N_VERTICES]] - [2.5, 2.0]).T)
-    slides = state.vertex[: len(from_middle), KIND] == SLIDING
-    return state, np.flatnonzero(slides & (from_middle < 1.01 * RADIUS))
+    slides = state.vertex[: state.counter[N_VERTICES], KIND] == SLIDING
+    return state, np.flatnonzero(slides & (from_middle(domain, state) < 1.01 * RADIUS))
+
+
+def from_middle(domain: Domain, state: State) -> np.ndarray:
+    """Distances of the vertices from the middle of the hole."""
+    return np.hypot(*(domain.to_mesh(state.point[: state.counter[N_VERTICES]]) - [2.5, 2.0]).T)
 
 
 @pytest.mark.parametrize("edge", [0.3, 0.45, 0.7, 1.0, 1.3, 3.0])
@@ -68,7 +72,7 @@ def test_goals_in_the_grid_are_the_others_where_nothing_slides() -> None:
     kinds = state.vertex[used, KIND]
     fixed = (kinds == INTERIOR) | (kinds == CORNER)
     assert np.array_equal(state.value[used, GRID_GOAL][fixed], state.value[used, GOAL][fixed])
-    straight = (kinds == SLIDING) & (np.hypot(*(state.point[used] - [2.5, 2.0]).T) > 1.2 * RADIUS)
+    straight = (kinds == SLIDING) & (from_middle(HOLED, state) > 1.2 * RADIUS)
     assert straight.sum() > 5
     assert (state.value[used, GRID_GOAL][straight] == 4).all()
 
@@ -88,7 +92,7 @@ def test_a_vertex_pays_for_both_by_share() -> None:
 
 def test_a_mesh_that_is_not_cut_has_only_its_own_goals() -> None:
     """Replacing a part of a mesh asks nothing of a grid."""
-    sizes = np.full(HOLED.n_points, 1.0)
+    sizes = np.full(HOLED.n_points, 1.0 / HOLED.scale)
     mesh = place(HOLED, *find_corners(HOLED, sizes))
     state = load(HOLED, mesh, np.log(sizes), weights=TRIANGLES)
     assert state.scalar[OF_GRID] == 0
