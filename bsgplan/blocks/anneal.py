@@ -93,7 +93,7 @@ def most_size_weight(size_tolerance: float) -> float:
     An rms of log(edge / wanted) of log(size_tolerance) then costs as much at every tolerance.
 
     >>> most_size_weight(SIZE_TOLERANCE), most_size_weight(1.0)
-    (0.5, 3.0)
+    (0.55, 3.0)
     """
     if size_tolerance <= 1.0:
         return MOST_SIZE_WEIGHT

@@ -86,7 +86,7 @@ def test_cell_arrays_say_what_they_are(plate: LaidOut) -> None:
 def test_barriers_keep_their_pairs(meshes: Path, tmp_path: Path) -> None:
     """Three weirs of ADCIRC: as many nodes on both sides, heights within the input's."""
     mesh_file = read(meshes / "weirs_internal_overflow.fort.14")
-    laid = lay_out_file(mesh_file, size_field(mesh_file.mesh), side=4, effort=5)
+    laid = lay_out_file(mesh_file, size_field(mesh_file.mesh), side=4, effort=20)
     export(laid.grid_file(), tmp_path / "grid.14")
     found = read(tmp_path / "grid.14")
     old = [b for b in mesh_file.boundaries if b.partners is not None]
