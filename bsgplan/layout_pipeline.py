@@ -19,8 +19,9 @@ from .laid_out import Features, find_features, lay_out_with
 from .laid_out.specks import without_specks
 from .layout_result import LayoutResult
 from .mesh import Mesh
-from .pipeline import check_triangles_only, plan_sizes, size_of
+from .pipeline import check_triangles_only, plan_sizes
 from .planning import check_block_size
+from .sized import size_of
 from .sizing import SizeField, size_field
 
 

@@ -18,19 +18,17 @@ import numpy as np
 import shapely
 from shapely.geometry.base import BaseGeometry
 
-from .arrays import Bools, Floats, sums_by
+from .arrays import Bools, sums_by
 from .blocks.domain import domain_of
 from .blocks.target import target_of
-from .errors import InvalidMesh, MeshReadError
+from .errors import InvalidMesh
 from .io import MeshFile
-from .io.isotropy import warn_of_stretched
 from .io.part import part_of
-from .io.size_file import sizes_from
 from .memory import reused
-from .mesh.thinned import Thinned, thinned
+from .mesh.thinned import Thinned
 from .planning import Plan, check_block_size, estimate
 from .planning.inverse import within
-from .planning.totals import GRADIENT_LIMIT
+from .planning.totals import GRADIENT_LIMIT, least_blocks
 from .regions import Regions, find_regions, measure_regions
 from .regions.borders import AVERAGES
 from .regions.labels import connected
@@ -38,15 +36,8 @@ from .regions.plateau import PLATEAU
 from .regions.segmentation import PERSISTENCE
 from .regions.selection import triangles_inside
 from .result import PlannedMesh
-from .sizing import SizeField, named_size_field, size_field
-from .sizing.measure import triangles_wanted
-from .sizing.thinned import thin_named_size_field, thin_size_field
-
-LARGE = 200_000
-"""A mesh of so many triangles is planned on a thinned one: there the compiled loop pays for its start."""
-
-LEAST = 16
-"""Triangles of the mesh in the smallest block from which that is done: three are left of them."""
+from .sized import size_of, sizes_to_plan
+from .sizing import SizeField
 
 
 @reused()
@@ -141,7 +132,11 @@ def plan_sizes(
         )
 
     if n_blocks is not None:
-        plans = [within(plan_at, field.expected_triangles, n_blocks)]
+
+        def least_at(n: int) -> int:
+            return least_blocks(field, n, gradient_limit)
+
+        plans = [within(plan_at, least_at, field.expected_triangles, n_blocks)]
     else:
         plans = [plan_at(int(n)) for n in np.atleast_1d(tris_per_block)]
     planned_on = field.mesh.n_triangles
@@ -155,63 +150,6 @@ def check_triangles_only(mesh_file: MeshFile) -> None:
             f"{mesh_file.path}: {len(mesh_file.quads)} quads beside {mesh_file.mesh.n_triangles} triangles; "
             "only triangles are planned, split the quads with --split-quads"
         )
-
-
-def sizes_to_plan(
-    mesh_file: MeshFile,
-    name: str | None = None,
-    size_file: str | os.PathLike[str] | None = None,
-    *,
-    tris_per_block: int | Sequence[int] = 16,
-    n_blocks: int | None = None,
-) -> tuple[SizeField, Thinned | None]:
-    """Return the size field to plan with, as `size_of`, and the thinned mesh that it is on, or None.
-
-    A plane mesh of LARGE triangles or more is thinned where the smallest block covers LEAST of them.
-    """
-    mesh, given = mesh_file.mesh, given_sizes(mesh_file, name, size_file)
-    if mesh.is_planar and mesh.n_triangles >= LARGE:
-        wanted = mesh.n_triangles if given is None else triangles_wanted(mesh, *given)
-        least = np.min(tris_per_block) if n_blocks is None else wanted / n_blocks
-        if least * mesh.n_triangles / wanted >= LEAST:
-            thin = thinned(mesh)
-            return thin_size_field(thin) if given is None else thin_named_size_field(thin, *given), thin
-    return size_field(mesh) if given is None else named_size_field(mesh, *given), None
-
-
-def size_of(
-    mesh_file: MeshFile, name: str | None = None, size_file: str | os.PathLike[str] | None = None
-) -> SizeField:
-    """Return the size field of a mesh file on every triangle; sizes and errors are those of `given_sizes`."""
-    given = given_sizes(mesh_file, name, size_file)
-    return size_field(mesh_file.mesh) if given is None else named_size_field(mesh_file.mesh, *given)
-
-
-def given_sizes(
-    mesh_file: MeshFile, name: str | None, size_file: str | os.PathLike[str] | None
-) -> tuple[Floats, str] | None:
-    """Return the sizes of a mesh file's array of that name, or of a size file, and their source.
-
-    One length a point or a triangle; those of a projected mesh are true metres. None where the mesh's own
-    edges are the size; warns where many triangles are stretched then. Raises MeshReadError where there is no
-    such array, and what `sizes_from` raises.
-    """
-    mesh = mesh_file.mesh
-    if size_file is not None:
-        source = os.fspath(size_file) + ("" if name is None else f": {name}")
-        return sizes_from(size_file, mesh_file, name=name), source
-    if name is None:
-        warn_of_stretched(mesh_file)
-        return None
-    arrays = {**mesh_file.cell_data, **mesh_file.point_data}
-    if name not in arrays:
-        there = ", ".join(sorted(arrays)) or "none"
-        raise MeshReadError(f"{mesh_file.path}: no array {name!r} for --size; the file's arrays: {there}")
-    values = np.asarray(arrays[name], dtype=np.float64)
-    if mesh_file.projection is not None and values.shape in {(mesh.n_points,), (mesh.n_triangles,)}:
-        where = mesh.points if name in mesh_file.point_data else mesh.centroids
-        values = values * mesh_file.projection.scale(where)
-    return values, name
 
 
 def boundary_limited_blocks(size: SizeField, tris_per_block: int) -> float | None:

@@ -15,7 +15,7 @@ from .io import Boundary, MeshFile
 from .io.whole import MATERIAL_ARRAYS
 from .laid_out.shifted import free_edges, shifted
 from .mesh.edges import edge_numbers
-from .pipeline import size_of, triangles_in
+from .pipeline import triangles_in
 from .regions.labels import connected
 from .regions.segmentation import segment
 from .remesh import replace
@@ -23,6 +23,7 @@ from .remesh.accept import Terms
 from .remesh.graft import Graft
 from .remesh.replace import EFFORT, SEED
 from .replace_result import ReplacedMesh
+from .sized import size_of
 
 
 def replace_in(

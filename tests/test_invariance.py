@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 from strategies import hilly
 
 import bsgplan
-from bsgplan import pipeline
+from bsgplan import sized
 from bsgplan.io import MeshFile
 from bsgplan.mesh import Mesh
 from bsgplan.pipeline import plan_blocks
@@ -71,7 +71,7 @@ def test_real_meshes_keep_their_plans(meshes, name):
 
 @pytest.mark.parametrize("name", REAL[:3])
 def test_real_meshes_keep_their_plans_where_they_are_thinned(meshes, name, monkeypatch):
-    monkeypatch.setattr(pipeline, "LARGE", 1)
+    monkeypatch.setattr(sized, "LARGE", 1)
     mesh_file = bsgplan.read(meshes / name)
     mesh = mesh_file.mesh
     result = plan_blocks(mesh_file)

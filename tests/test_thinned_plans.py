@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from bsgplan import pipeline, plan_blocks, read
+from bsgplan import plan_blocks, read, sized
 from bsgplan.cli import main
-from bsgplan.pipeline import sizes_to_plan
+from bsgplan.sized import sizes_to_plan
 from tests.predicates import assert_is_plan, assert_is_segmentation
 
 CASES = Path(__file__).resolve().parent.parent / "cases"
@@ -21,7 +21,7 @@ COUNTS = ("blocks_gradient_limited", "blocks_boundary_limited")
 
 @pytest.fixture
 def every_mesh_is_large(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(pipeline, "LARGE", 1)
+    monkeypatch.setattr(sized, "LARGE", 1)
 
 
 @pytest.mark.usefixtures("every_mesh_is_large")
@@ -81,7 +81,7 @@ def test_small_meshes_and_small_blocks_are_planned_on_every_triangle(monkeypatch
         return thin is not None
 
     assert not is_thinned()
-    monkeypatch.setattr(pipeline, "LARGE", n_triangles)
+    monkeypatch.setattr(sized, "LARGE", n_triangles)
     assert is_thinned()
     assert not is_thinned(tris_per_block=(4, 16))
     assert not is_thinned(n_blocks=n_triangles // 4)

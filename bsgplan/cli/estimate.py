@@ -11,6 +11,7 @@ from cyclopts import Parameter
 
 from ..errors import InvalidOption
 from .checks import check_above
+from .whole import Whole
 
 
 def estimate(
@@ -18,7 +19,7 @@ def estimate(
     /,
     *,
     tris_per_block: str | None = None,
-    blocks: int | None = None,
+    blocks: Whole | None = None,
     objective: str = "balanced",
     size: str | None = None,
     size_file: Path | None = None,
@@ -65,7 +66,8 @@ def estimate(
     gradient_limit
         Bound on the gradient of the block size in the gradient-limited count.
     every_triangle
-        Plan a mesh of 200 000 triangles or more on all of them, not on a thinned one: three times the time.
+        Plan on every triangle also where there are 200 000 or more, not on a thinned mesh: up to three times
+        as long.
     candidates
         Show the candidates of every region.
     json

@@ -9,29 +9,30 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from .checks import check_above, check_least
+from .whole import Whole
 
 
 def layout(
     file: Path,
     /,
     *,
-    tris_per_block: int = 16,
+    tris_per_block: Whole = 16,
     output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
     grid: Path | None = None,
     figure: Path | None = None,
     save: Path | None = None,
     json: Annotated[bool, Parameter(negative=(), show_default=False)] = False,
-    effort: int = 100,
+    effort: Whole = 100,
     size_tolerance: float = 1.2,
     gradient_limit: float | None = None,
-    seed: int = 7,
+    seed: Whole = 7,
     straight: Annotated[bool, Parameter(negative=(), show_default=False)] = False,
     size: str | None = None,
     size_file: Path | None = None,
     keep: str | None = None,
     lonlat: Annotated[bool, Parameter(negative=(), show_default=False)] = False,
     split_quads: Annotated[bool, Parameter(negative=(), show_default=False)] = False,
-    ranks: int | None = None,
+    ranks: Whole | None = None,
 ) -> None:
     """Lay the whole mesh out in blocks and cut them into a grid.
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import Parameter
 
 from ..errors import InvalidOption
+from .whole import Whole
 
 if TYPE_CHECKING:
     from ..patterns import Pattern
@@ -19,7 +20,7 @@ def pattern(
     /,
     *,
     length: float | None = None,
-    refine: int = 2,
+    refine: Whole = 2,
     closed: Annotated[bool, Parameter(negative=())] = False,
     figure: Path | None = None,
     vtk: Path | None = None,

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import Parameter
 
 from ..errors import InvalidOption, NoPatternFits
+from .whole import Whole
 
 if TYPE_CHECKING:
     from ..patterns import Pattern
@@ -20,10 +21,10 @@ def patterns(
     *,
     length: float | None = None,
     layers: float | None = None,
-    tris_per_block: int = 1,
+    tris_per_block: Whole = 1,
     least_quality: float = 0.3,
     closed: Annotated[bool, Parameter(negative=())] = False,
-    most: int = 16,
+    most: Whole = 16,
     json: Annotated[bool, Parameter(negative=())] = False,
 ) -> None:
     """Find the best patterns of a transition: no other has fewer blocks, less iota+ and better quality.

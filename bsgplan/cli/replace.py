@@ -11,6 +11,7 @@ from cyclopts import Parameter
 
 from ..errors import InvalidOption
 from .checks import check_least
+from .whole import Whole
 
 
 def replace(
@@ -22,8 +23,8 @@ def replace(
     move_boundary: Annotated[bool, Parameter(negative=(), show_default=False)] = False,
     min_quality: float | None = None,
     tolerance: float = 0.1,
-    effort: int = 30,
-    seed: int = 7,
+    effort: Whole = 30,
+    seed: Whole = 7,
     size: str | None = None,
     size_file: Path | None = None,
     lonlat: Annotated[bool, Parameter(negative=(), show_default=False)] = False,

@@ -9,13 +9,14 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from ..errors import InvalidOption, NoPatternFits
+from .whole import Whole
 
 
 def sweep(
     *files: str,
     out: Path,
     tris_per_block: str = "16",
-    workers: int | None = None,
+    workers: Whole | None = None,
     scheduler: str | None = None,
     objective: str = "balanced",
     size: str | None = None,

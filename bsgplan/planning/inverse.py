@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import ceil, sqrt
+from math import ceil, isqrt, sqrt
 
 from ..errors import InvalidOption, NoPatternFits
 from .plan import Plan
 
-PATIENCE = 3
-"""Block sizes tried after the need has stopped falling."""
+EVERY_SIDE = 64
+"""Sides of blocks under this are tried one by one, longer ones in steps of a half of this part of them."""
 
 COUNT_TOLERANCE = 0.05
 """Patterns may need this much less than triangles / s^2 blocks, by rounding: such sizes are tried too."""
@@ -39,30 +39,47 @@ def need(plan: Plan) -> Need:
     return Need(counts[driver], driver)
 
 
-def within(plan_at: Callable[[int], Plan], n_triangles: float, n_blocks: int) -> Plan:
+def within(
+    plan_at: Callable[[int], Plan], least_at: Callable[[int], int], n_triangles: float, n_blocks: int
+) -> Plan:
     """Return the plan at the smallest block size that needs at most n_blocks.
 
     Any larger block that the mesh carries needs fewer still, and more triangles. plan_at makes the plan for
-    a number of triangles per block; sides s whose n_triangles / s^2 exceeds n_blocks are not tried, nor
-    more once the need no longer falls or a block is larger than the mesh. Raises NoPatternFits with the
-    least need and the driver that forbids fewer, InvalidOption where n_blocks is under 1.
+    a number of triangles per block, least_at the need without its patterns, which costs little: plans are
+    made only where that is not too much. Sides s whose n_triangles / s^2 exceeds n_blocks are not tried, nor
+    those of blocks larger than the mesh. Raises NoPatternFits with the least need and the driver that forbids
+    fewer, InvalidOption where n_blocks is under 1.
     """
     if n_blocks < 1:
         raise InvalidOption(f"{n_blocks} blocks is under 1; give the most blocks you accept")
-    side = max(1, ceil(sqrt(n_triangles / n_blocks) * (1 - COUNT_TOLERANCE)))
-    least: tuple[int, int, str] | None = None
-    stalled = 0
-    while stalled < PATIENCE and (least is None or side * side <= n_triangles):
-        plan = plan_at(side * side)
-        found = need(plan)
-        if found.n_blocks <= n_blocks and side * side <= n_triangles:
-            return plan
-        stalled = 0 if least is None or found.n_blocks < least[0] else stalled + 1
-        if least is None or found.n_blocks <= least[0]:  # of equals the last: its driver still binds
-            least = (found.n_blocks, side * side, found.driver)
-        side += 1 if stalled == 0 else side // 4 + 1
-    count, tris_per_block, driver = least if least is not None else (0, 1, "")
+    first = max(1, ceil(sqrt(n_triangles / n_blocks) * (1 - COUNT_TOLERANCE)))
+    sides = [side for side in _sides(n_triangles) if side >= first] or [isqrt(int(n_triangles)) or 1]
+    needs: dict[int, Need] = {}
+    least = {side: least_at(side * side) for side in sides}
+    for side in sides:
+        if least[side] <= n_blocks:
+            plan = plan_at(side * side)
+            needs[side] = need(plan)
+            if needs[side].n_blocks <= n_blocks:
+                return plan
+    for side in sorted(set(sides) - set(needs), key=lambda side: (least[side], side)):
+        if least[side] < min((found.n_blocks for found in needs.values()), default=least[side] + 1):
+            needs[side] = need(plan_at(side * side))
+    side = min(needs, key=lambda side: (needs[side].n_blocks, -side))
     raise NoPatternFits(
-        f"no block size plans this mesh with {n_blocks} blocks; the least is {count}, "
-        f"at {tris_per_block} triangles per block, and {driver} forbids fewer"
+        f"no block size plans this mesh with {n_blocks} blocks; the least is {needs[side].n_blocks}, "
+        f"at {side * side} triangles per block, and {needs[side].driver} forbids fewer"
     )
+
+
+def _sides(n_triangles: float) -> list[int]:
+    """Return the sides of blocks that are tried, whatever the question: of blocks no larger than the mesh.
+
+    >>> _sides(70**2)[-4:]
+    [64, 66, 68, 70]
+    """
+    sides, side = [], 1
+    while side * side <= n_triangles:
+        sides.append(side)
+        side += max(1, 2 * side // EVERY_SIDE)
+    return sides

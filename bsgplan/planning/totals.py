@@ -11,8 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import Floats
+from ..mesh import Mesh
 from ..mesh.operators import corner_means
 from ..regions import Regions
+from ..sizing import SizeField
 from ..sizing.counts import capped_triangles, gradient_limited_blocks
 
 GRADIENT_LIMIT = 0.6
@@ -100,10 +102,24 @@ def drivers(
             4, PAPER_BLOCK, PAPER_GROWTH * weight, PAPER_GROWTH * weight / PAPER_BLOCK
         ),
         blocks_gradient_bound=float(np.sqrt(3) * _slope_energy(regions)[inside].sum() / SIZE_SPREAD**2),
-        blocks_boundary=max(3 * topology.n_boundary_loops - 2 * chi, 1),
+        blocks_boundary=boundary_floor(size.mesh),
         charge=regions.charge,
         boundary_charge=-6.0 * chi - regions.charge,
     )
+
+
+def boundary_floor(mesh: Mesh) -> int:
+    """Return the fewest triangles of any layout of a mesh's domain: 3 b - 2 chi, b boundary loops."""
+    topology = mesh.topology
+    chi = topology.euler_characteristic + topology.n_pinches
+    return max(3 * topology.n_boundary_loops - 2 * chi, 1)
+
+
+def least_blocks(size: SizeField, tris_per_block: int, gradient_limit: float) -> int:
+    """Return the blocks needed whatever the patterns are: by the size gradient and by the boundary."""
+    everywhere = np.ones(size.mesh.n_triangles, dtype=bool)
+    limited = gradient_limited_blocks(size, float(np.sqrt(tris_per_block)), gradient_limit, everywhere)
+    return max(round(limited), boundary_floor(size.mesh))
 
 
 def _slope_energy(regions: Regions) -> Floats:

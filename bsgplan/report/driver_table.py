@@ -31,7 +31,7 @@ def drivers_table(plan: Plan) -> Table:
             d.blocks_gradient_bound,
             "sqrt(3) integral |grad log h|^2 dA / (ln tau)^2, ln tau = .5",
         ),
-        ("boundary floor", d.blocks_boundary, "3 boundary loops - 2 chi: three block edges around each loop"),
+        ("boundary floor", d.blocks_boundary, "3 x boundary loops - 2 chi: three block edges around a loop"),
     ]
     rows += [
         (

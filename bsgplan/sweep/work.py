@@ -13,8 +13,9 @@ from ..errors import BsgplanError
 from ..io import MeshFile, read, read_lonlat
 from ..io.projection import warn_of_degrees
 from ..mesh.thinned import Thinned
-from ..pipeline import check_triangles_only, plan_sizes, sizes_to_plan
+from ..pipeline import check_triangles_only, plan_sizes
 from ..planning import Plan
+from ..sized import sizes_to_plan
 from ..sizing import SizeField
 from .job import Job, Row, shortened
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import meshio
@@ -15,7 +16,7 @@ from bsgplan.errors import InvalidSize, MeshReadError
 from bsgplan.io.size_file import sizes_from
 from bsgplan.io.size_pos import read_pos
 from bsgplan.io.size_sol import isotropic
-from bsgplan.pipeline import size_of
+from bsgplan.sized import size_of
 
 PLATE = "cases/plate/mesh.msh"
 SQUARE = "a square\n2 4\n1 0 0 1\n2 1 0 1\n3 1 1 1\n4 0 1 1\n1 3 1 2 3\n2 3 1 3 4\n"
@@ -249,3 +250,14 @@ def test_every_triangle_of_a_long_view_is_there(tmp_path):
     rows = [f"ST({k},0,0,{k + 1},0,0,{k},1,0){{1,1,2}};" for k in range(n)]
     (tmp_path / "many.pos").write_text('View "h" {\n' + "\n".join(rows) + "\n};\n")
     assert read_pos(tmp_path / "many.pos", None).sizes.shape == (n, 3)
+
+
+@pytest.mark.parametrize("factor", [1e-6, 1e6])
+def test_sizes_in_an_unlikely_unit_are_warned_of(caplog, factor):
+    plate = bsgplan.read("cases/plate/mesh.msh")
+    wanted = replace(plate, point_data={"h": np.full(plate.mesh.n_points, factor)})
+    size_of(wanted, "h")
+    assert "check their unit" in caplog.text
+    caplog.clear()
+    size_of(replace(plate, point_data={"h": size_of(plate).h}), "h")
+    assert not caplog.text

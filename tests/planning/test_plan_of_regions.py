@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
@@ -19,7 +20,7 @@ from bsgplan.io import read, read_lonlat
 from bsgplan.mesh import Mesh
 from bsgplan.planning import OBJECTIVES, Plan, check_block_size, estimate
 from bsgplan.planning.inverse import need, within
-from bsgplan.planning.totals import drivers
+from bsgplan.planning.totals import GRADIENT_LIMIT, drivers, least_blocks
 from bsgplan.regions import Regions, find_regions
 from bsgplan.sizing import SizeField, size_field
 
@@ -38,6 +39,10 @@ WNAT = "wnat_test_18578.fort.14"
 def regions_of(path: Path) -> Regions:
     reader = read_lonlat if path.name == WNAT else read
     return find_regions(size_field(reader(path).mesh))
+
+
+def floor_of(size: SizeField) -> Callable[[int], int]:
+    return lambda n: least_blocks(size, n, GRADIENT_LIMIT)
 
 
 def planner(size: SizeField) -> Callable[[int], Plan]:
@@ -153,7 +158,7 @@ def test_the_inverse_needs_at_most_what_was_asked_and_the_next_finer_needs_more(
 ) -> None:
     size = regions_of(CASES / name / "mesh.msh").size
     plan_at = planner(size)
-    plan = within(plan_at, size.mesh.n_triangles, n_blocks)
+    plan = within(plan_at, floor_of(size), size.mesh.n_triangles, n_blocks)
     assert need(plan).n_blocks <= n_blocks
     side = round(np.sqrt(plan.tris_per_block))
     assert side > 1
@@ -162,13 +167,30 @@ def test_the_inverse_needs_at_most_what_was_asked_and_the_next_finer_needs_more(
 
 def test_more_blocks_than_triangles_allow_the_smallest_block() -> None:
     size = size_field(jittered(6, 5, 3907))
-    assert within(planner(size), size.mesh.n_triangles, 10_000).tris_per_block == 1
+    assert within(planner(size), floor_of(size), size.mesh.n_triangles, 10_000).tris_per_block == 1
 
 
 @pytest.mark.parametrize("name", ["islands", "annulus"])
 def test_an_impossible_number_of_blocks_names_the_least_and_its_driver(name: str) -> None:
     size = regions_of(CASES / name / "mesh.msh").size
     with pytest.raises(NoPatternFits, match=r"with 3 blocks; the least is \d+, at \d+ .* forbids fewer"):
-        within(planner(size), size.mesh.n_triangles, 3)
+        within(planner(size), floor_of(size), size.mesh.n_triangles, 3)
     with pytest.raises(InvalidOption, match="under 1"):
-        within(planner(size), size.mesh.n_triangles, 0)
+        within(planner(size), floor_of(size), size.mesh.n_triangles, 0)
+
+
+@pytest.mark.parametrize("name", ["rectangle", "plate"])
+def test_the_least_number_of_blocks_that_is_named_is_granted(name: str) -> None:
+    """Whatever is asked for: every refusal names the same least, and that many blocks have a plan."""
+    size = regions_of(CASES / name / "mesh.msh").size
+
+    def answer(n_blocks: int) -> Plan:
+        return within(planner(size), floor_of(size), size.mesh.n_triangles, n_blocks)
+
+    with pytest.raises(NoPatternFits) as refusal:
+        answer(1)
+    least = int(re.search(r"the least is (\d+)", str(refusal.value))[1])
+    assert need(answer(least)).n_blocks == least
+    for n_blocks in {2, least - 1} - {0, 1, least}:
+        with pytest.raises(NoPatternFits, match=rf"the least is {least},"):
+            answer(n_blocks)
