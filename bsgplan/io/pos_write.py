@@ -1,6 +1,6 @@
 """Writer of a size field as a Gmsh post-processing view: one scalar triangle a line, a background mesh.
 
-A mesh in degrees is written in the metres of its map, sizes too: a mesh generator knows one unit of length.
+A mesh in degrees is written in degrees with its sizes in true metres, as `--size-file` reads them back.
 """
 
 from __future__ import annotations
@@ -20,13 +20,12 @@ ARRAY = "target_size"
 
 def write_pos(mesh_file: MeshFile, path: str | os.PathLike[str]) -> None:
     """Write the wanted edge length over the triangles; whole or not at all, raises OutputError."""
-    mesh, projection = mesh_file.mesh, mesh_file.projection
+    mesh = mesh_file.mesh
     size = mesh_file.point_data.get(ARRAY)
     if size is None or size.shape != (mesh.n_points,):
         raise OutputError(f"{os.fspath(path)}: the mesh has no point array {ARRAY!r}; export a saved layout")
-    if projection is not None:
-        size = size * projection.scale(mesh.points)
-    points = np.column_stack([mesh.points, np.zeros((mesh.n_points, 3 - mesh.points.shape[1]))])
+    own = mesh_file.file_points
+    points = np.column_stack([own, np.zeros((len(own), 3 - own.shape[1]))])
     corners = points[mesh.triangles].reshape(-1, 9)
     line = "ST(%r,%r,%r,%r,%r,%r,%r,%r,%r){%r,%r,%r};\n"
     with replacing(path) as temporary, temporary.open("w", encoding="utf-8", newline="\n") as stream:

@@ -7,6 +7,7 @@ quality and irregularity keep their meaning, and lengths are true after division
 from __future__ import annotations
 
 import logging
+import re
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -18,8 +19,10 @@ from ..errors import InvalidMesh
 from ..mesh import clean
 from .file import MeshFile, RawMesh
 
-OCEAN_FORMATS = ("fort.14",)
+OCEAN_FORMATS = ("fort.14", "netcdf", "selafin")
 """Formats of ocean models, whose coordinates are degrees more often than not."""
+DEPTH = re.compile("depth|bathy|bottom", re.IGNORECASE)
+"""What point arrays of ocean models are called: one that varies tells of a mesh of the sea in any format."""
 SMALLEST_DEGREES = 0.01
 """An ocean domain is more than a kilometre across; a smaller box of numbers is no box of degrees."""
 
@@ -144,11 +147,26 @@ def project_raw(raw: RawMesh) -> tuple[RawMesh, Projection]:
 
 def looks_like_degrees(mesh_file: MeshFile) -> bool:
     """Return True for an ocean model's mesh, not projected, whose box fits degrees."""
-    if mesh_file.projection is not None or mesh_file.format not in OCEAN_FORMATS:
+    if mesh_file.projection is not None or not mesh_file.mesh.is_planar or not _is_of_the_sea(mesh_file):
         return False
-    west, east, south, north = mesh_file.mesh.bounds[:4]
+    west, east, south, north = mesh_file.mesh.bounds
     is_inside = west >= -180 and east <= 360 and south >= -90 and north <= 90
     return is_inside and max(east - west, north - south) > SMALLEST_DEGREES
+
+
+def _is_of_the_sea(mesh_file: MeshFile) -> bool:
+    """Return True for a fort.14, and for other meshes of the sea unless a corner of their box is the origin.
+
+    A basin that is drawn from the origin on is no map, and any generator's output converts to these formats.
+    """
+    if mesh_file.format == "fort.14":
+        return True
+    if mesh_file.mesh.bounds[0] == 0.0 == mesh_file.mesh.bounds[2]:
+        return False
+    return mesh_file.format in OCEAN_FORMATS or any(
+        DEPTH.search(name) and values.size and np.ptp(values) > 0
+        for name, values in mesh_file.point_data.items()
+    )
 
 
 def warn_of_degrees(mesh_file: MeshFile) -> None:

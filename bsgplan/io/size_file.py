@@ -92,7 +92,10 @@ def _from_grid(path: Path, mesh_file: MeshFile, name: str | None) -> Floats:
     is_lonlat = mesh_file.projection is not None
     grid = read_grid(path, is_lonlat=is_lonlat)
     where = _places(mesh_file)
-    return at_longitudes(around_the_globe(grid), where) if is_lonlat else grid.at(where)
+    if not is_lonlat:
+        return grid.at(where)
+    check_degrees(np.array([[grid.x[0], grid.y[0]], [grid.x[-1], grid.y[-1]]]))
+    return at_longitudes(around_the_globe(grid), where)
 
 
 def _from_mesh(path: Path, mesh_file: MeshFile, name: str | None) -> Floats:
@@ -127,7 +130,20 @@ def _places(mesh_file: MeshFile) -> Floats:
 
 def _read_off(background: Background, mesh_file: MeshFile) -> Floats:
     where = _places(mesh_file)
-    return (background if mesh_file.projection is None else unrolled(background, where)).at(where)
+    if mesh_file.projection is None:
+        return background.at(where)
+    check_degrees(background.corners[..., :2].reshape(-1, 2))
+    return unrolled(background, where).at(where)
+
+
+def check_degrees(places: Floats) -> None:
+    """Raise InvalidSize where places, (n, 2), are beyond a full turn: in metres, not in degrees."""
+    low, high = places.min(axis=0), places.max(axis=0)
+    if (low < -FULL_TURN).any() or (high > FULL_TURN).any():
+        x, y = (f"{a:.6g} .. {b:.6g}" for a, b in zip(low, high, strict=True))
+        raise InvalidSize(
+            f"places of x {x}, y {y} are no degrees; with --lonlat give sizes at longitudes and latitudes"
+        )
 
 
 def at_points(mesh: Mesh, values: Floats, name: str) -> Floats:

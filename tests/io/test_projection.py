@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from pyproj import Geod
 
 from bsgplan.errors import InvalidMesh
-from bsgplan.io import looks_like_degrees, project, read, read_lonlat
+from bsgplan.io import looks_like_degrees, project, read, read_lonlat, write
 from bsgplan.io.projection import Projection
 
 
@@ -86,3 +88,25 @@ def test_degrees_are_recognised_by_their_box(meshes):
     assert not looks_like_degrees(read_lonlat(meshes / "wnat_test_18578.fort.14"))
     assert not looks_like_degrees(read(meshes / "bahamas_bight_of_abaco.fort.14"))
     assert not looks_like_degrees(read(meshes / "mesh_NACA0012_inv.su2"))
+
+
+@pytest.mark.parametrize("name", ["a.2dm", "a.vtu", "a.slf", "a.nc"])
+def test_degrees_of_the_sea_are_recognised_in_every_format(tmp_path, name):
+    """Not only in a fort.14; no alarm for what is drawn from the origin on, nor without a depth."""
+    sea = read(grid_fort14(tmp_path, np.arange(117, 127.0), np.arange(33, 41.0)))
+    depth = {"depth": sea.mesh.points[:, 0]}
+    write(replace(sea, point_data=depth), tmp_path / name)
+    assert looks_like_degrees(read(tmp_path / name))
+    drawn = read(grid_fort14(tmp_path, np.arange(2.0), np.arange(2.0)))
+    write(replace(drawn, point_data={"depth": drawn.mesh.points[:, 0]}), tmp_path / name)
+    assert not looks_like_degrees(read(tmp_path / name))
+    if name in ("a.2dm", "a.vtu"):
+        write(replace(sea, point_data={"depth": np.zeros(sea.mesh.n_points)}), tmp_path / name)
+        assert not looks_like_degrees(read(tmp_path / name))
+
+
+def test_the_real_sea_in_2dm_is_recognised(meshes):
+    """And, of all the other real meshes, neither the wing nor the apartment nor the bone."""
+    assert looks_like_degrees(read(meshes / "bohai_yellow_sea_BYS_20814.2dm"))
+    for name in ("helmholtz_apartment.vtk", "osteonT1_11.mesh", "la.1.ele", "notched_plate_phasefield.msh"):
+        assert not looks_like_degrees(read(meshes / name))

@@ -261,3 +261,22 @@ def test_sizes_in_an_unlikely_unit_are_warned_of(caplog, factor):
     caplog.clear()
     size_of(replace(plate, point_data={"h": size_of(plate).h}), "h")
     assert not caplog.text
+
+
+@pytest.mark.parametrize("suffix", [".pos", ".msh"])
+def test_sizes_in_metres_are_no_sizes_of_a_mesh_in_degrees(tmp_path, suffix, capsys):
+    """A view and a grid about the origin in metres used to cover the degrees, and were read off silently."""
+    path = tmp_path / "fort.14"
+    path.write_text(DATE_LINE)
+    around = {
+        ".pos": 'View "h" {SQ(-39045,-9e3,0, 36215,-9e3,0, 36215,9e3,0, -39045,9e3,0){1,2,3,4};};',
+        ".msh": GRID.format(**{**PLAIN, "x": "-39045\n36215", "y": "-9000\n0\n9000"}),
+    }
+    sizes_file = tmp_path / f"metres{suffix}"
+    sizes_file.write_text(around[suffix])
+    assert bsgplan.cli.main(["estimate", str(path), "--lonlat", "--size-file", str(sizes_file)]) == 3
+    told = capsys.readouterr().err
+    assert told.splitlines()[-1] == (
+        f"error: {sizes_file}: places of x -39045 .. 36215, y -9000 .. 9000 are no degrees; "
+        "with --lonlat give sizes at longitudes and latitudes"
+    )

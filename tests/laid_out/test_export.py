@@ -229,3 +229,22 @@ def test_degrees_come_back(tmp_path: Path) -> None:
     found = read(tmp_path / "out.14")
     np.testing.assert_allclose(found.mesh.bounds[:4], [0, 1, 0, 1], atol=1e-6)
     np.testing.assert_allclose(found.point_data["depth"], found.mesh.points[:, 0], atol=2e-4)
+
+
+def test_sizes_exported_in_degrees_feed_back(tmp_path: Path) -> None:
+    """The view of a layout in degrees is a size file of its mesh: places in degrees, sizes in true metres."""
+    from bsgplan.io import read_lonlat, write_fort14
+    from bsgplan.io.size_file import sizes_from
+    from bsgplan.laid_out import lay_out_file
+    from bsgplan.pipeline import plan_blocks
+    from bsgplan.sizing import size_field
+
+    write_fort14(as_file(lattice(16)), tmp_path / "in.14")
+    mesh_file = read_lonlat(tmp_path / "in.14")
+    size = size_field(mesh_file.mesh)
+    export(lay_out_file(mesh_file, size, side=2, effort=3).grid_file(), tmp_path / "h.pos")
+    found = sizes_from(tmp_path / "h.pos", mesh_file)
+    assert np.abs(np.log(found / size.h)).max() < np.log(1.25)
+    without = plan_blocks(mesh_file, tris_per_block=4).plan.n_blocks
+    fed_back = plan_blocks(mesh_file, tris_per_block=4, size_file=tmp_path / "h.pos").plan.n_blocks
+    assert fed_back == pytest.approx(without, rel=0.1)
