@@ -3,12 +3,30 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import os
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
 from .errors import OutputError
+
+REMEDIES = {
+    errno.ENOSPC: "free space on its disk, or write to another",
+    errno.EDQUOT: "free space in your quota, or write elsewhere",
+    errno.EFBIG: "raise the limit of file sizes (ulimit -f), or write to another disk",
+}
+"""What to do where there is no room for a file."""
+
+
+def unwritten(error: OSError) -> str:
+    """Return what an error of a write says, and the remedy.
+
+    >>> unwritten(OSError(errno.ENOSPC, "No space left on device"))
+    'cannot be written (No space left on device); free space on its disk, or write to another'
+    """
+    remedy = REMEDIES.get(error.errno or 0, "check the folder")
+    return f"cannot be written ({error.strerror or error}); {remedy}"
 
 
 @contextlib.contextmanager
@@ -19,9 +37,7 @@ def naming(target: str | os.PathLike[str]) -> Iterator[None]:
     except OutputError:
         raise
     except OSError as error:
-        raise OutputError(
-            f"{os.fspath(target)}: cannot be written ({error.strerror or error}); check the folder"
-        ) from None
+        raise OutputError(f"{os.fspath(target)}: {unwritten(error)}") from None
 
 
 @contextlib.contextmanager

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
+from ..words import counted
 from .output import check_writable
 
 if TYPE_CHECKING:
@@ -42,7 +43,7 @@ def convert(
     from ..io import read
     from ..io.companions import warn_of_companions
     from ..io.triangle import ELE, NODE, both_paths
-    from ..io.write import writable
+    from ..io.write import n_boundaries_written, writable
 
     found = writable(out, format)
     outputs = both_paths(out) if found.name == "triangle" else (out,)
@@ -51,24 +52,29 @@ def convert(
     found.write(mesh_file, out)
     left = {name: n for name, n in mesh_file.ignored.items() if name not in CARRIED}
     if left:
-        cells = ", ".join(f"{n} {name} cells" for name, n in left.items())
-        logging.getLogger("bsgplan").warning("%s: %s were left out", out, cells)
+        cells = ", ".join(counted(n, f"{name} cell") for name, n in left.items())
+        logging.getLogger("bsgplan").warning("%s: left out %s", out, cells)
     warn_of_companions(mesh_file, out)
     told = [note for note in mesh_file.notes if not _concerns_the_plan(note, mesh_file)]
-    sys.stdout.write("\n".join([f"{out}: {found.name}, {_contents(mesh_file)}", *told]) + "\n")
+    sys.stdout.write(
+        "\n".join(
+            [f"{out}: {found.name}, {_contents(mesh_file, n_boundaries_written(mesh_file, found))}", *told]
+        )
+        + "\n"
+    )
 
 
 def _concerns_the_plan(note: str, mesh_file: MeshFile) -> bool:
     """Return whether a note tells what a plan leaves out and a file does not: quads and their boundaries."""
-    return bool(len(mesh_file.quads)) and ("measured apart" in note or "boundary entries" in note)
+    return bool(len(mesh_file.quads)) and ("measured apart" in note or "boundary entr" in note)
 
 
-def _contents(mesh_file: MeshFile) -> str:
+def _contents(mesh_file: MeshFile, n_boundaries: int) -> str:
     mesh = mesh_file.mesh
-    counts = {
-        "points": mesh.n_points,
-        "triangles": mesh.n_triangles,
-        "quads": len(mesh_file.quads),
-        "boundaries": len(mesh_file.boundaries),
-    }
-    return ", ".join(f"{n} {name}" for name, n in counts.items() if n)
+    counts = (
+        counted(mesh.n_points, "point"),
+        counted(mesh.n_triangles, "triangle"),
+        counted(len(mesh_file.quads), "quad"),
+        counted(n_boundaries, "boundary", "boundaries"),
+    )
+    return ", ".join(told for told in counts if not told.startswith("0 "))

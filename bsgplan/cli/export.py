@@ -8,6 +8,8 @@ from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
+from ..words import counted
+
 
 def export(
     file: Path,
@@ -30,7 +32,7 @@ def export(
     output
         The file to write.
     """
-    from ..laid_out.export import FORMATS, flavour
+    from ..laid_out.export import FORMATS, WITH_BOUNDARIES, flavour
     from ..laid_out.saved import load_layout
     from .output import check_writable
 
@@ -39,7 +41,7 @@ def export(
     mesh_file = load_layout(file, what)
     FORMATS[name][1](mesh_file, output)
     mesh = mesh_file.mesh
-    sys.stdout.write(
-        f"{output}: {name}, {mesh.n_points} points, {mesh.n_triangles} triangles, "
-        f"{len(mesh_file.boundaries)} boundaries\n"
-    )
+    told = [name, counted(mesh.n_points, "point"), counted(mesh.n_triangles, "triangle")]
+    if name in WITH_BOUNDARIES and mesh_file.boundaries:
+        told.append(counted(len(mesh_file.boundaries), "boundary", "boundaries"))
+    sys.stdout.write(f"{output}: {', '.join(told)}\n")

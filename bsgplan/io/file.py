@@ -17,6 +17,7 @@ from ..errors import InvalidMesh, MeshReadError
 from ..memory import reused
 from ..mesh import Mesh, clean
 from ..mesh.check import is_planar
+from ..words import counted
 from .boundary import Boundary, n_nodes
 
 if TYPE_CHECKING:
@@ -161,9 +162,10 @@ def assemble(path: str, format: str, raw: RawMesh, projection: Projection | None
         f"{n_flipped} {turned.format(_s(n_flipped))}": n_flipped,
         f"{n_folds} edge{_s(n_folds)} with both triangles on one side: the mesh is folded there": n_folds,
         f"{n_unused} point{_s(n_unused)} of no cell dropped": n_unused,
-        f"{n_lost} boundary entries dropped, their points are in no triangle": n_lost,
+        f"{counted(n_lost, 'boundary entry', 'boundary entries')} dropped, of points in no triangle": n_lost,
         "constant third coordinate dropped": cleaned.is_flattened,
-        f"{n_coincident} points coincide with another point; they stay apart, none was merged": n_coincident,
+        f"{counted(n_coincident, 'point coincides', 'points coincide')} with another point; they stay apart, "
+        "none was merged": n_coincident,
         f"{len(quads)} quad{_s(len(quads))} measured apart; --split-quads makes them triangles": len(quads),
     }
     return MeshFile(
@@ -213,9 +215,9 @@ def _check_duplicates(mesh: Mesh) -> None:
     beside = [both[edges] - own for edges in topology.cell_edges.T]
     is_same = (beside[0] == beside[1]) & (beside[1] == beside[2]) & (beside[0] > own)
     if is_same.any():
-        first = int(np.flatnonzero(is_same)[0])
+        first, n = int(np.flatnonzero(is_same)[0]), int(np.count_nonzero(is_same))
         raise InvalidMesh(
-            f"{np.count_nonzero(is_same)} triangles stand in the file twice, the first {first} and "
+            f"{n} triangle{_s(n)} stand{'s' if n == 1 else ''} in the file twice, the first {first} and "
             f"{beside[0][first]}; save each triangle once (one physical group each)"
         )
 

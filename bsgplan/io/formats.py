@@ -16,6 +16,9 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .file import MeshFile, RawMesh
 
+EVERY_KIND = ("open", "land", "named")
+"""The kinds of boundaries."""
+
 
 @dataclass(frozen=True)
 class Format:
@@ -35,6 +38,8 @@ class Format:
     """The package that reading or writing needs beyond bsgplan's own; None where it needs none."""
     keeps: str = ""
     """What beside points and triangles has a place in it."""
+    boundaries: tuple[str, ...] = ()
+    """The kinds of boundaries that are written; others are lost, with a warning."""
 
     def read(self, path: Path) -> RawMesh:
         """Return what the reader finds in a file; raises MeshReadError."""
@@ -65,7 +70,7 @@ def _resolved(import_path: str) -> Any:
     return getattr(import_module(module, __package__), function)
 
 
-def _meshio(name: str, suffixes: tuple[str, ...], what: str, *, writes: bool = False, **more: str) -> Format:
+def _meshio(name: str, suffixes: tuple[str, ...], what: str, *, writes: bool = False, **more: Any) -> Format:
     writer = f"meshio.{name}:write" if writes else None
     return Format(name, suffixes, what, f"meshio.{name}:read", writer, **more)
 
@@ -78,8 +83,17 @@ FORMATS: tuple[Format, ...] = (
         "meshio.gmsh:read",
         ".gmsh_write:write_msh22",
         keeps=(gmsh_keeps := "arrays of 1, 3 or 9 components; boundaries and regions with names"),
+        boundaries=EVERY_KIND,
     ),
-    Format("gmsh41", (), "Gmsh, MSH 4.1 in text", None, ".gmsh_write:write_msh41", keeps=gmsh_keeps),
+    Format(
+        "gmsh41",
+        (),
+        "Gmsh, MSH 4.1 in text",
+        None,
+        ".gmsh_write:write_msh41",
+        keeps=gmsh_keeps,
+        boundaries=EVERY_KIND,
+    ),
     Format(
         "fort.14",
         (".14", ".grd", ".gr3", ".ll"),
@@ -87,6 +101,7 @@ FORMATS: tuple[Format, ...] = (
         ".fort14:read_fort14",
         ".fort14_write:write_fort14",
         keeps="title; point array depth; open and land boundaries",
+        boundaries=("open", "land"),
     ),
     Format(
         "2dm",
@@ -95,6 +110,7 @@ FORMATS: tuple[Format, ...] = (
         ".sms:read_2dm",
         ".sms_write:write_2dm",
         keeps="point array depth; cell array material with names; nodestrings",
+        boundaries=EVERY_KIND,
     ),
     Format(
         "triangle",
@@ -103,6 +119,7 @@ FORMATS: tuple[Format, ...] = (
         ".triangle:read_triangle",
         ".triangle:write_triangle",
         keeps="scalar arrays without names; point array marker",
+        boundaries=EVERY_KIND,
     ),
     Format(
         "jigsaw",
@@ -111,6 +128,7 @@ FORMATS: tuple[Format, ...] = (
         ".jigsaw:read_jigsaw",
         ".jigsaw:write_jigsaw",
         keeps="point arrays value, slope, power; regions and boundaries by number",
+        boundaries=EVERY_KIND,
     ),
     Format(
         "gmsh1",
@@ -126,6 +144,7 @@ FORMATS: tuple[Format, ...] = (
         ".su2:read_su2",
         ".su2_write:write_su2",
         keeps="quads; markers with their names",
+        boundaries=EVERY_KIND,
     ),
     Format(
         "mfem",
@@ -134,6 +153,7 @@ FORMATS: tuple[Format, ...] = (
         ".mfem:read_mfem",
         ".mfem_write:write_mfem",
         keeps="quads; regions by number; boundaries with their names",
+        boundaries=EVERY_KIND,
     ),
     Format(
         "selafin",
@@ -151,6 +171,7 @@ FORMATS: tuple[Format, ...] = (
         ".ugrid_write:write_ugrid",
         extra="netCDF4",
         keeps="quads; point and cell arrays of one number; boundaries with their names",
+        boundaries=EVERY_KIND,
     ),
     _meshio(
         "medit",
@@ -158,6 +179,7 @@ FORMATS: tuple[Format, ...] = (
         "Medit, INRIA (mmg, FreeFEM)",
         writes=True,
         keeps="regions and boundaries by number",
+        boundaries=EVERY_KIND,
     ),
     _meshio("vtk", (".vtk",), "VTK legacy, unstructured grid", writes=True, keeps="point and cell arrays"),
     _meshio("vtu", (".vtu",), "VTK XML, unstructured grid", writes=True, keeps="point and cell arrays"),

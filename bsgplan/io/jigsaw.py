@@ -27,6 +27,7 @@ import numpy as np
 from ..arrays import Floats, Ints
 from ..atomic import replacing
 from ..errors import MeshReadError
+from ..words import counted
 from .boundary import Boundary, labels
 from .cell_rows import check_corners
 from .file import MeshFile, RawMesh
@@ -168,7 +169,8 @@ def write_jigsaw(mesh_file: MeshFile, path: str | os.PathLike[str]) -> None:
         point_data=("value", "slope", "power", "tag"),
         cell_data=() if array is None else (array,),
         boundaries=("open", "land", "named"),
-        also=[f"the names of {n_named} boundaries, whose numbers are the tags"] * bool(n_named),
+        also=[f"the names of {counted(n_named, 'boundary', 'boundaries')}, whose numbers are the tags"]
+        * bool(n_named),
     )
     text = _text(mesh_file)
     with replacing(path) as temporary, temporary.open("w", encoding="utf-8", newline="\n") as stream:

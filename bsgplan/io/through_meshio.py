@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import importlib
+import re
 import types
 from collections.abc import Iterable
+from os import SEEK_END
 from pathlib import Path
 from typing import Any
 
@@ -13,14 +15,23 @@ import numpy as np
 from ..arrays import Floats, Ints
 from ..errors import BsgplanError, MeshReadError
 from .boundary import Boundary
-from .byte_order_mark import skip_mark
+from .byte_order_mark import MARK, skip_mark
 from .file import RawMesh
 from .hush import hushed
+from .sniff import HEAD, format_of
 
 CORNERS = (("triangle", 3), ("quad", 4), ("VTK_LAGRANGE_TRIANGLE", 3), ("VTK_LAGRANGE_QUADRILATERAL", 4))
 """Cell types, by how their name begins, that are taken by their first corners: higher orders too."""
 HIDDEN_ARRAYS = ("gmsh:dim_tags",)
 """Book-keeping of a reader, of no use as data."""
+CLOSINGS = {
+    "gmsh": rb"\n\$End\w+$",
+    "vtk": b"",  # nothing closes it
+    "vtu": b"</VTKFile>$",
+    "xdmf": b"</Xdmf>$",
+    "dolfin": b"</dolfin>$",
+}
+"""Formats that begin with a signature, and what stands at their end."""
 LINE_TAGS = ("gmsh:physical", "medit:ref")
 """Arrays that hold the number of the boundary at line cells."""
 PARTIAL_TAGS = "physical groups cover a part of the cells only; gmsh:physical is 0 at the others"
@@ -44,7 +55,8 @@ def read_through_meshio(path: Path, file_format: str) -> RawMesh:
             ) from None
         except (Exception, SystemExit) as error:  # readers raise anything, and exit
             raise MeshReadError(
-                f"not readable as {file_format} ({reason(error)}); check or convert it"
+                damage(path, file_format)
+                or f"not readable as {file_format} ({reason(error)}); check or convert it"
             ) from None
 
 
@@ -188,8 +200,31 @@ def _named_lines(found: Any) -> tuple[Boundary, ...]:
 
 
 def reason(error: BaseException) -> str:
-    """Return what an exception of meshio says in one short line, else its name."""
+    """Return what an exception of a reader says in one short line; where it says nothing, what that means."""
     text = " ".join(str(error).split())
     if isinstance(error, SystemExit) or not text:
-        return type(error).__name__
+        return "damaged or cut short"
     return text if len(text) <= 120 else text[:117] + "..."
+
+
+def damage(path: Path, file_format: str) -> str:
+    """Return what is wrong with the ends of a file that could not be read, and the remedy; empty if nothing.
+
+    The first bytes are those of the format, where it has a signature, and the last ones close it.
+    """
+    if file_format not in CLOSINGS:
+        return ""
+    with path.open("rb") as stream:
+        head = stream.read(HEAD).removeprefix(MARK)
+        n_bytes = stream.seek(0, SEEK_END)
+        stream.seek(max(n_bytes - HEAD, 0))
+        tail = stream.read().rstrip()
+    if format_of(head, "") != file_format:
+        begins = ascii(head[:20].decode("latin-1"))
+        return f"no {file_format} file, it begins with {begins}; give one, or a suffix that tells its format"
+    if not re.search(CLOSINGS[file_format], tail):
+        ends = ascii(tail[-20:].decode("latin-1"))
+        return (
+            f"the {file_format} file ends early, after {n_bytes} bytes, with {ends}; fetch or save it again"
+        )
+    return ""

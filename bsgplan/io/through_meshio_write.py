@@ -12,6 +12,7 @@ import numpy as np
 from ..arrays import Floats
 from ..atomic import replacing
 from ..errors import BsgplanError, OutputError
+from ..words import counted
 from .boundary import labels
 from .file import MeshFile
 from .hush import hushed
@@ -57,6 +58,8 @@ def write_through_meshio(mesh_file: MeshFile, path: str | os.PathLike[str], file
                 f"{Path(path)}: {file_format} files need the package {error.name}; pip install {error.name}"
             ) from None
         except (Exception, SystemExit) as error:  # writers raise anything, and exit
+            if isinstance(error, OSError) and error.errno is not None:  # no fault of the format
+                raise
             raise OutputError(
                 f"{Path(path)}: cannot be written as {file_format} ({reason(error)}); write .vtu instead"
             ) from None
@@ -80,7 +83,7 @@ def _mesh(mesh_file: MeshFile, path: str | os.PathLike[str], file_format: str) -
         point_data=tuple(point_data),
         cell_data=(str(regions.array),) if has_regions else tuple(cell_arrays),
         boundaries=("open", "land", "named") if has_lines else (),
-        also=[f"the names of {n_named} boundaries"] * bool(n_named),
+        also=[f"the names of {counted(n_named, 'boundary', 'boundaries')}"] * bool(n_named),
     )
     blocks = [("triangle", whole.triangles)]
     data: dict[str, list[Any]] = {name: [values] for name, values in cell_arrays.items()}

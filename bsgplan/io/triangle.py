@@ -21,6 +21,7 @@ import numpy as np
 from ..arrays import Floats, Ints
 from ..atomic import replacing
 from ..errors import MeshReadError, OutputError
+from ..words import counted
 from .boundary import labels
 from .file import MeshFile, RawMesh
 from .point_numbers import corner_indices, point_numbers
@@ -150,7 +151,8 @@ def write_triangle(mesh_file: MeshFile, path: str | os.PathLike[str]) -> None:
         point_data=(*scalars, MARKER),
         cell_data=tuple(cells),
         boundaries=() if is_marked else ("open", "land", "named"),
-        also=[f"the names of {n_named} boundaries, whose numbers are the markers"] * bool(n_named),
+        also=[f"the names of {counted(n_named, 'boundary', 'boundaries')}, whose numbers are the markers"]
+        * bool(n_named),
     )
     with replacing(points_path) as points, replacing(cells_path) as triangles:
         with points.open("w", encoding="utf-8", newline="\n") as stream:

@@ -31,3 +31,10 @@ def writable(path: str | os.PathLike[str], name: str | None = None) -> Format:
     what = f"suffix {suffix!r}" if found is None else f"{found.name} files"
     verb = "is no format that is written" if found is None else "are not written"
     raise InvalidOption(f"{os.fspath(path)}: {what} {verb}; give a --format of {names}")
+
+
+def n_boundaries_written(mesh_file: MeshFile, found: Format) -> int:
+    """Return how many boundaries of a mesh file have a place in a format; the others a warning has named."""
+    if found.name == "triangle" and "marker" in mesh_file.point_data:  # its column is taken by the array
+        return 0
+    return sum(boundary.kind in found.boundaries for boundary in mesh_file.boundaries)

@@ -12,6 +12,7 @@ import numpy as np
 from ..errors import InvalidOption, OutputError
 from ..io import Boundary, MeshFile
 from ..io.boundary import labels
+from ..io.boundary_edges import UNMARKED, rim
 from ..io.fort14_boundaries import PAIRED
 from ..io.fort14_write import write_fort14
 from ..io.gmsh_write import write_msh22, write_msh41
@@ -19,8 +20,13 @@ from ..io.hyteg_write import write_hyteg
 from ..io.pos_write import write_pos
 from ..io.vtm_write import write_arrays, write_vtm
 from ..io.whole import MATERIAL_ARRAYS
+from ..mesh import Mesh
+from ..mesh.edges import edge_keys
 from .features import region_array
 from .tracks import find_tracks
+
+ALL = "boundary"
+"""Name of the whole rim in Gmsh files where the mesh has no groups."""
 
 
 def _fort14(mesh_file: MeshFile, path: str | os.PathLike[str]) -> None:
@@ -44,6 +50,7 @@ def _groups_only(write: Callable[[MeshFile, Path], None]) -> Callable[[MeshFile,
         if array == "region":  # the writers know it by Gmsh's name
             kept = {"gmsh:physical": mesh_file.cell_data[array]}
         boundaries = tuple(_as_edges(mesh_file, b) for b in mesh_file.boundaries)
+        boundaries += _rest(mesh_file.mesh, boundaries)
         write(replace(mesh_file, cell_data=kept, boundaries=boundaries), path)
 
     return written
@@ -55,6 +62,16 @@ def _as_edges(mesh_file: MeshFile, boundary: Boundary) -> Boundary:
     ends = mesh_file.mesh.topology.edges[tracks.edge]
     is_along = tracks.start == ends[:, 0]
     return replace(boundary, edges=np.where(is_along[:, None], ends, ends[:, ::-1]))
+
+
+def _rest(mesh: Mesh, boundaries: tuple[Boundary, ...]) -> tuple[Boundary, ...]:
+    """Return the sides of the rim that no boundary has, as one more."""
+    sides = rim(mesh.triangles, np.empty((0, 4), dtype=np.int64), mesh.n_points)
+    taken = np.concatenate([np.empty((0, 2), dtype=np.int64), *(b.segments for b in boundaries)])
+    sides = sides[~np.isin(edge_keys(sides, mesh.n_points), edge_keys(taken, mesh.n_points))]
+    if not len(sides):
+        return ()
+    return (Boundary("named", np.unique(sides), name=UNMARKED if boundaries else ALL, edges=sides),)
 
 
 FORMATS: dict[str, tuple[str, Callable[[MeshFile, Path], None]]] = {
@@ -70,6 +87,9 @@ FORMATS: dict[str, tuple[str, Callable[[MeshFile, Path], None]]] = {
     "pos": ("Gmsh post-processing view of the wanted edge length", write_pos),
 }
 """What each flavour is, and its writer."""
+
+WITH_BOUNDARIES = ("msh22", "msh41", "fort14")
+"""Flavours in which each boundary of the mesh has a place."""
 
 SUFFIXES = {".vtu": "vtu", ".vtm": "vtm", ".pos": "pos", ".14": "fort14", ".grd": "fort14", ".msh": "msh22"}
 """The flavour that a suffix means."""

@@ -17,6 +17,7 @@ from ..arrays import Floats
 from ..atomic import replacing
 from ..errors import InvalidOption
 from ..planning import Plan
+from ..words import counted
 from .figure_layout import BOTTOM, RIGHT, arrangement
 from .figure_list import draw_list, list_height, listed_regions
 from .figure_panels import FONT, Panel, draw_charge, draw_labels, draw_regions, draw_sizes, show_plain_numbers
@@ -125,7 +126,8 @@ def prepare(axes: Any, view: View, box: Floats, heading: str) -> None:
 def _title(plan: Plan, name: str) -> str:
     mesh = plan.regions.size.mesh
     parts = [name] if name else []
-    parts += [f"{mesh.n_triangles} triangles", f"{plan.n_blocks} blocks of {plan.tris_per_block} triangles"]
+    parts.append(counted(mesh.n_triangles, "triangle"))
+    parts.append(f"{counted(plan.n_blocks, 'block')} of {counted(plan.tris_per_block, 'triangle')}")
     if plan.q_min is not None:
         parts.append(f"q_min {plan.q_min:.2f}")
     return "  -  ".join(parts)

@@ -12,6 +12,7 @@ import numpy as np
 from ..arrays import Floats, Ints
 from ..blocks.layout import BlockGrid
 from ..blocks.placed import PlacedMesh
+from ..words import counted
 from .figure import DOTS, prepare
 from .figure_panels import FONT, draw_lines
 from .figure_view import GlobeMap, View, domain_box, filled, view_of, with_margin, zoom_box
@@ -91,9 +92,9 @@ def _title(grid: BlockGrid, name: str) -> str:
     inside = ~layout.placed.topology.is_boundary
     parts = [name] if name else []
     parts += [
-        f"{layout.n_blocks} blocks of {layout.side**2} triangles",
-        f"{np.count_nonzero(off[inside])} irregular vertices inside, {np.count_nonzero(off[~inside])} "
-        "on the boundary",
+        f"{counted(layout.n_blocks, 'block')} of {counted(layout.side**2, 'triangle')}",
+        f"{counted(np.count_nonzero(off[inside]), 'irregular vertex', 'irregular vertices')} inside, "
+        f"{np.count_nonzero(off[~inside])} on the boundary",
         f"q_min {layout.mesh.qualities.min():.2f}, grid {grid.mesh.qualities.min():.2f}",
     ]
     return "  -  ".join(parts)

@@ -7,6 +7,7 @@ import math
 from ..blocks.levels import BYTES_PER_UNKNOWN, VECTORS
 from ..blocks.measures import EdgeRatio, Measures
 from ..planning import Plan
+from ..words import counted
 from .layout_document import LayoutReport
 from .table import QUALITY, Column, Table, Value, number
 
@@ -171,12 +172,12 @@ def levels_table(report: LayoutReport) -> Table:
         Column("P2 unknowns"),
         Column("interface edges"),
     ]
-    notes = [f"{n_interfaces} interfaces between blocks."]
+    notes = [f"{counted(n_interfaces, 'interface')} between blocks."]
     if ranks is not None:
         columns.append(Column("per rank", "MiB", ".3g"))
         notes.append(
-            f"{ranks.n_ranks} ranks: {ranks.blocks_least} to {ranks.blocks_most} blocks each, most over mean "
-            f"{ranks.imbalance:.2f}; memory of the fullest: {VECTORS} vectors of"
+            f"{counted(ranks.n_ranks, 'rank')}: {ranks.blocks_least} to {ranks.blocks_most} blocks each, "
+            f"most over mean {ranks.imbalance:.2f}; memory of the fullest: {VECTORS} vectors of"
         )
         notes.append(
             f"{BYTES_PER_UNKNOWN}-byte P1 unknowns, each block with its own rim, this level and all coarser "

@@ -16,6 +16,7 @@ from ..mesh import Mesh
 from ..patterns import Pattern, Realised, best_length, best_spacing, realise, relative_irregularity, subdivide
 from ..patterns.frustum import pattern_qualities
 from ..patterns.strip import ring_turn
+from ..words import counted
 from .pattern_document import moved_pattern, straight_shape
 
 if TYPE_CHECKING:
@@ -141,10 +142,11 @@ def _title(pattern: Pattern, length: float) -> str:
     words, total = str(pattern), pattern.irregularity
     if len(words) > 30:
         words = f"{words[:22]}..{words[-6:]}"
-    return (
-        f"{words}: {pattern.n_blocks} blocks, iota+ {total.positive}, iota\N{MINUS SIGN} {total.negative}, "
-        f"length {length:.3g}".replace(" -", " \N{MINUS SIGN}")
+    told = (
+        f"{words}: {counted(pattern.n_blocks, 'block')}, iota+ {total.positive}, "
+        f"iota\N{MINUS SIGN} {total.negative}, length {length:.3g}"
     )
+    return told.replace(" -", " \N{MINUS SIGN}")
 
 
 def _colours() -> Any:

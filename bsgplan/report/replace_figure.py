@@ -9,6 +9,7 @@ import numpy as np
 from ..arrays import Bools, Floats, Ints
 from ..mesh import Mesh
 from ..remesh import Replacement
+from ..words import counted
 from .figure import DOTS
 from .figure_view import GlobeMap, domain_box, view_of, zoom_box
 
@@ -99,8 +100,8 @@ def _heading(mesh: Mesh, inside: Bools, at: Floats, box: Floats, when: str) -> s
     shown = inside & seen[mesh.triangles].all(axis=1)
     corners = np.unique(mesh.triangles[shown])
     q = float(mesh.qualities[shown].min()) if shown.any() else float("nan")
-    n_off = np.count_nonzero(_off(mesh)[corners])
-    return f"{when}: {np.count_nonzero(shown)} triangles, {n_off} irregular vertices inside, q_min {q:.2f}"
+    off = counted(np.count_nonzero(_off(mesh)[corners]), "irregular vertex", "irregular vertices")
+    return f"{when}: {counted(np.count_nonzero(shown), 'triangle')}, {off} inside, q_min {q:.2f}"
 
 
 def _off(mesh: Mesh) -> Ints:

@@ -8,6 +8,7 @@ from ..arrays import Floats
 from ..remesh import Replacement
 from ..remesh.measures import Measures
 from ..remesh.replacement import Part
+from ..words import counted
 from .rows import plain_irregularity
 from .table import QUALITY, Column, Table, Value
 
@@ -35,7 +36,7 @@ def notes(replacement: Replacement) -> tuple[str, ...]:
     up, down = (float(charges[sign * charges > 0].sum()) for sign in (1, -1))
     told = [
         f"budget: the size demands iota {up:+.1f} and {down:.1f} inside its regions",
-        f"floor: the boundary leaves no fewer than {replacement.floor()} irregular vertices inside",
+        f"floor: the boundary leaves no fewer than {_irregular(replacement.floor())} inside",
     ]
     tried = sum(part.strips.tried for part in replacement.parts)
     kept = sum(part.strips.kept for part in replacement.parts if not part.reason)
@@ -43,7 +44,7 @@ def notes(replacement: Replacement) -> tuple[str, ...]:
         told.append("stopped early")
     if tried:
         gone = sum(part.strips.gone for part in replacement.parts if not part.reason)
-        less = f", {gone} irregular vertices less" if kept else ""
+        less = f", {_irregular(gone)} less" if kept else ""
         told.append(f"strips of fronts: the better start in {kept} of {tried} clear transitions{less}")
     return tuple(told)
 
@@ -155,3 +156,7 @@ def plain(measures: Measures) -> dict[str, Any]:
 
 def _change(before: int, after: int) -> str:
     return f"{100 * (after / before - 1):+.0f} %" if before else f"{after - before:+d}"
+
+
+def _irregular(n: int) -> str:
+    return counted(n, "irregular vertex", "irregular vertices")

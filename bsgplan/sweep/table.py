@@ -12,7 +12,7 @@ import os
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from ..atomic import replacing
+from ..atomic import replacing, unwritten
 from ..errors import OutputError
 from .job import COLUMNS, KEY, Job, Key, Row
 
@@ -74,7 +74,7 @@ class Sheet:
                 stream.write(text.encode())
                 os.fsync(stream.fileno())
         except OSError as error:
-            raise OutputError(f"{self.path}: cannot be written ({error.strerror}); check the disk") from None
+            raise OutputError(f"{self.path}: {unwritten(error)}") from None
 
 
 def _line(cells: Sequence[str]) -> str:

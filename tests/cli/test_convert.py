@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+import re
+from dataclasses import replace
+
+import numpy as np
 import pytest
 
 from bsgplan.cli import main
-from bsgplan.io import read
+from bsgplan.io import Boundary, read, write
+from bsgplan.io.formats import BY_NAME, FORMATS
+from bsgplan.io.write import n_boundaries_written
 
 SQUARE = """a square
 2 5
@@ -38,7 +44,7 @@ def test_the_suffix_tells_the_format(square, capsys):
     out = square.with_name("out.2dm")
     assert main(["convert", str(square), str(out)]) == 0
     told = capsys.readouterr()
-    assert told.out == f"{out}: 2dm, 4 points, 2 triangles, 1 boundaries\n1 point of no cell dropped\n"
+    assert told.out == f"{out}: 2dm, 4 points, 2 triangles, 1 boundary\n1 point of no cell dropped\n"
     assert told.err == ""
     assert read(out).boundaries[0].name == "open 1"
 
@@ -116,3 +122,21 @@ def test_quads_are_split_where_asked(tmp_path, capsys):
     assert not out.exists()
     assert main(["convert", str(mesh), str(out), "--split-quads"]) == 0
     assert read(out).mesh.n_triangles == 3
+
+
+@pytest.mark.parametrize("name", [found.name for found in FORMATS if found.writer is not None])
+def test_the_boundaries_told_are_those_written(square, name, caplog):
+    """Those in the last line and those that a warning says are lost make up all of them."""
+    pytest.importorskip({"xdmf": "h5py", "exodus": "netCDF4"}.get(name, "numpy"))
+    kinds = (Boundary("open", np.array([0, 1])), Boundary("land", np.array([1, 2]), 0))
+    many = replace(read(square), boundaries=(*kinds, Boundary("named", np.array([2, 3]), 5, "wall")))
+    write(many, square.with_name("out.node" if name == "triangle" else "out"), format=name)
+    lost = [int(n) for n in re.findall(r"(\d+) (?:open|land|named) boundar", caplog.text)]
+    assert n_boundaries_written(many, BY_NAME[name]) == 3 - sum(lost)
+
+
+def test_boundaries_without_a_place_are_not_reported(square, capsys):
+    """As .off they used to be, after the warning that there is no place for them."""
+    out = square.with_name("out.off")
+    assert main(["convert", str(square), str(out)]) == 0
+    assert capsys.readouterr().out.splitlines()[0] == f"{out}: off, 4 points, 2 triangles"

@@ -97,7 +97,7 @@ def test_clockwise_and_unused_are_told(small):
     told = " ".join(found.notes)
     assert "1 clockwise triangle turned" in told
     assert "1 point of no cell dropped" in told
-    assert "1 boundary entries dropped" in told
+    assert "1 boundary entry dropped" in told
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from predicates import assert_is_mesh_file
 
 from bsgplan.errors import InvalidMesh, MeshReadError
-from bsgplan.io import read
+from bsgplan.io import read, write
 from bsgplan.io.file import RawMesh, _n_coincident, assemble
 from bsgplan.io.sniff import format_of
 
@@ -116,7 +116,7 @@ def test_missing_empty_directory_and_garbage_are_one_line_each(tmp_path):
         "missing.msh": "no such file",
         "empty.msh": "is empty",
         "garbage.xyz": "format not recognised",
-        "garbage.msh": "not readable as gmsh",
+        "garbage.msh": "no gmsh file",
         ".": "is a directory",
         "nul\0.msh": "not a file name",
     }
@@ -249,9 +249,44 @@ def test_triangles_that_stand_twice_are_counted(data):
     if not again:
         assert assemble("t", "made", raw).mesh.n_triangles == n
         return
-    message = rf"^t: {len(again)} triangles stand in the file twice, the first (\d+) and (\d+);"
+    message = rf"^t: {len(again)} triangles? stands? in the file twice, the first (\d+) and (\d+);"
     with pytest.raises(InvalidMesh, match=message) as caught:
         assemble("t", "made", raw)
     first, second = map(int, re.match(message, str(caught.value)).groups())
     assert first < second
     assert sorted(triangles[first]) == sorted(triangles[second])
+
+
+@pytest.mark.parametrize("suffix", [".msh", ".vtu"])
+def test_a_file_cut_short_is_told_as_such(tmp_path, suffix):
+    """By where it ends, not by what the reader stumbled over."""
+    whole = tmp_path / f"whole{suffix}"
+    write(read("cases/plate/mesh.msh"), whole)
+    content = whole.read_bytes()
+    for share in (0.3, 0.6, 0.9):
+        cut = tmp_path / f"cut{suffix}"
+        n = int(share * len(content))
+        cut.write_bytes(content[:n])
+        told = rf"cut{suffix}: the \w+ file ends early, after {n} bytes, with '.*'; fetch or save it again"
+        with pytest.raises(MeshReadError, match=told):
+            read(cut)
+
+
+@pytest.mark.parametrize("suffix", ["msh", "vtu", "vtk"])
+def test_what_is_no_file_of_its_suffix_is_told_by_how_it_begins(tmp_path, suffix):
+    path = tmp_path / f"garbage.{suffix}"
+    path.write_bytes(bytes(range(167, 255)))
+    with pytest.raises(
+        MeshReadError, match=r"no \w+ file, it begins with '\\xa7\\xa8.*; give one, or a suffix"
+    ):
+        read(path)
+
+
+def test_one_is_no_plural():
+    """One triangle twice, one point that coincides."""
+    none = np.empty((0, 4), dtype=np.int64)
+    points = np.array([[0.0, 0], [1, 0], [0, 1], [1, 1], [0, 1], [1, 1.5]])
+    with pytest.raises(InvalidMesh, match="1 triangle stands in the file twice"):
+        assemble("t", "made", RawMesh(points, np.array([[0, 1, 2], [0, 1, 2]]), none))
+    notes = assemble("t", "made", RawMesh(points, np.array([[0, 1, 2], [3, 4, 5]]), none)).notes
+    assert any(note.startswith("1 point coincides with another point; they stay apart") for note in notes)

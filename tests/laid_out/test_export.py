@@ -248,3 +248,26 @@ def test_sizes_exported_in_degrees_feed_back(tmp_path: Path) -> None:
     without = plan_blocks(mesh_file, tris_per_block=4).plan.n_blocks
     fed_back = plan_blocks(mesh_file, tris_per_block=4, size_file=tmp_path / "h.pos").plan.n_blocks
     assert fed_back == pytest.approx(without, rel=0.1)
+
+
+@pytest.mark.parametrize("format", ["msh22", "msh41"])
+def test_sides_without_a_group_are_lines_too(tmp_path: Path, format: str) -> None:
+    """A mesh without groups has one line element for each side; sides left over are a group of their own."""
+    import meshio
+
+    mesh = lattice(3)
+    some = Boundary("named", np.array([0, 1, 2]), 1, "inlet")
+    for given, names in (((), {"boundary": [1, 1]}), ((some,), {"inlet": [1, 1], "unmarked": [2, 1]})):
+        export(as_file(mesh, given), tmp_path / "m.msh", format=format)
+        found = meshio.gmsh.read(tmp_path / "m.msh")
+        lines = np.concatenate([block.data for block in found.cells if block.type == "line"])
+        assert len(np.unique(np.sort(lines, axis=1), axis=0)) == len(lines) == 12
+        assert {name: pair.tolist() for name, pair in found.field_data.items()} == names
+
+
+def test_mfem_has_a_boundary_without_groups(tmp_path: Path) -> None:
+    """One attribute on all sides."""
+    mfem = pytest.importorskip("mfem.ser")
+    export(as_file(lattice(3)), tmp_path / "m.msh")
+    mesh = mfem.Mesh(str(tmp_path / "m.msh"), 1, 1)
+    assert (mesh.GetNBE(), mesh.bdr_attributes.Size()) == (12, 1)

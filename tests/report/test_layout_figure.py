@@ -44,7 +44,7 @@ def test_markers_sit_where_the_grid_has_the_corners_of_blocks():
 
 def test_the_title_tells_blocks_irregular_vertices_and_quality():
     title = layout_figure(with_goals([5.0] + 6 * [4.0]), name="hexagon").get_suptitle()
-    assert title.startswith("hexagon  -  6 blocks of 16 triangles  -  1 irregular vertices inside, 6 on")
+    assert title.startswith("hexagon  -  6 blocks of 16 triangles  -  1 irregular vertex inside, 6 on")
     assert "q_min 1.00" in title
 
 
