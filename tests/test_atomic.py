@@ -8,6 +8,7 @@ import os
 import pytest
 
 from bsgplan.atomic import replacing
+from bsgplan.cli.errors import one_line
 from bsgplan.errors import OutputError
 from bsgplan.io import read, write
 
@@ -48,3 +49,10 @@ def test_a_limit_of_file_sizes_is_told_by_every_writer(tmp_path, suffix):
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, limits)
     assert [path.name for path in tmp_path.iterdir()] == [f"first{suffix}"]
+
+
+def test_a_full_standard_output_is_told_as_such():
+    """A result piped to a full disk."""
+    full = OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+    told = one_line(full)
+    assert told.startswith("error: the output cannot be written (No space left on device); free space on")

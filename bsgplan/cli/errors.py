@@ -63,12 +63,16 @@ def one_line(error: BaseException) -> str:
     >>> one_line(NoPatternFits("no plan with 10 blocks"))
     'error: no plan with 10 blocks'
     """
+    from ..atomic import REMEDIES, unwritten
+
     message = " ".join(str(error).split())
     if isinstance(error, KeyboardInterrupt):
         return "interrupted"
     if isinstance(error, OSError) and not isinstance(error, BsgplanError) and error.strerror:
         where = "" if error.filename is None else f"{error.filename}: "
         message = f"{where}{error.strerror}"
+        if error.errno in REMEDIES:  # of standard output, say
+            message = f"{where or 'the output '}{unwritten(error)}"
     if exit_code(error) != INTERNAL_ERROR:
         return f"error: {message}"
     return f"internal error: {type(error).__name__}: {message}; run again with --debug and report it"

@@ -32,7 +32,7 @@ def export(
     output
         The file to write.
     """
-    from ..laid_out.export import FORMATS, WITH_BOUNDARIES, flavour
+    from ..laid_out.export import FORMATS, flavour, n_boundaries_written
     from ..laid_out.saved import load_layout
     from .output import check_writable
 
@@ -42,6 +42,6 @@ def export(
     FORMATS[name][1](mesh_file, output)
     mesh = mesh_file.mesh
     told = [name, counted(mesh.n_points, "point"), counted(mesh.n_triangles, "triangle")]
-    if name in WITH_BOUNDARIES and mesh_file.boundaries:
-        told.append(counted(len(mesh_file.boundaries), "boundary", "boundaries"))
+    if n_boundaries := n_boundaries_written(mesh_file, name):
+        told.append(counted(n_boundaries, "boundary", "boundaries"))
     sys.stdout.write(f"{output}: {', '.join(told)}\n")

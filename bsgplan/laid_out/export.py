@@ -49,11 +49,14 @@ def _groups_only(write: Callable[[MeshFile, Path], None]) -> Callable[[MeshFile,
         kept = {} if array is None else {array: mesh_file.cell_data[array]}
         if array == "region":  # the writers know it by Gmsh's name
             kept = {"gmsh:physical": mesh_file.cell_data[array]}
-        boundaries = tuple(_as_edges(mesh_file, b) for b in mesh_file.boundaries)
-        boundaries += _rest(mesh_file.mesh, boundaries)
-        write(replace(mesh_file, cell_data=kept, boundaries=boundaries), path)
+        write(replace(mesh_file, cell_data=kept, boundaries=_groups(mesh_file)), path)
 
     return written
+
+
+def _groups(mesh_file: MeshFile) -> tuple[Boundary, ...]:
+    boundaries = tuple(_as_edges(mesh_file, boundary) for boundary in mesh_file.boundaries)
+    return (*boundaries, *_rest(mesh_file.mesh, boundaries))
 
 
 def _as_edges(mesh_file: MeshFile, boundary: Boundary) -> Boundary:
@@ -88,9 +91,6 @@ FORMATS: dict[str, tuple[str, Callable[[MeshFile, Path], None]]] = {
 }
 """What each flavour is, and its writer."""
 
-WITH_BOUNDARIES = ("msh22", "msh41", "fort14")
-"""Flavours in which each boundary of the mesh has a place."""
-
 SUFFIXES = {".vtu": "vtu", ".vtm": "vtm", ".pos": "pos", ".14": "fort14", ".grd": "fort14", ".msh": "msh22"}
 """The flavour that a suffix means."""
 
@@ -102,6 +102,13 @@ def export(mesh_file: MeshFile, path: str | os.PathLike[str], *, format: str | N
     a barrier has lost its pairs.
     """
     FORMATS[flavour(path, format)][1](mesh_file, Path(path))
+
+
+def n_boundaries_written(mesh_file: MeshFile, name: str) -> int:
+    """Return how many boundaries a flavour writes: none, those of the mesh, or with the rest of its rim."""
+    if name in ("msh22", "msh41"):
+        return len(_groups(mesh_file))
+    return len(mesh_file.boundaries) if name == "fort14" else 0
 
 
 def flavour(path: str | os.PathLike[str], format: str | None = None) -> str:

@@ -93,7 +93,7 @@ def _title(grid: BlockGrid, name: str) -> str:
     parts = [name] if name else []
     parts += [
         f"{counted(layout.n_blocks, 'block')} of {counted(layout.side**2, 'triangle')}",
-        f"{counted(np.count_nonzero(off[inside]), 'irregular vertex', 'irregular vertices')} inside, "
+        f"{counted(int((off[inside] != 0).sum()), 'irregular vertex', 'irregular vertices')} inside, "
         f"{np.count_nonzero(off[~inside])} on the boundary",
         f"q_min {layout.mesh.qualities.min():.2f}, grid {grid.mesh.qualities.min():.2f}",
     ]

@@ -100,8 +100,8 @@ def _heading(mesh: Mesh, inside: Bools, at: Floats, box: Floats, when: str) -> s
     shown = inside & seen[mesh.triangles].all(axis=1)
     corners = np.unique(mesh.triangles[shown])
     q = float(mesh.qualities[shown].min()) if shown.any() else float("nan")
-    off = counted(np.count_nonzero(_off(mesh)[corners]), "irregular vertex", "irregular vertices")
-    return f"{when}: {counted(np.count_nonzero(shown), 'triangle')}, {off} inside, q_min {q:.2f}"
+    off = counted(int(_off(mesh)[corners].astype(bool).sum()), "irregular vertex", "irregular vertices")
+    return f"{when}: {counted(int(shown.sum()), 'triangle')}, {off} inside, q_min {q:.2f}"
 
 
 def _off(mesh: Mesh) -> Ints:

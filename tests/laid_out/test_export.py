@@ -14,6 +14,7 @@ from bsgplan.cli.app import main
 from bsgplan.errors import InvalidOption, MeshReadError, OutputError
 from bsgplan.io import Boundary, read
 from bsgplan.laid_out import FORMATS, LaidOut, arrays_of, export, load_layout
+from bsgplan.laid_out.export import n_boundaries_written
 
 from .conftest import as_file, lattice
 
@@ -263,6 +264,7 @@ def test_sides_without_a_group_are_lines_too(tmp_path: Path, format: str) -> Non
         lines = np.concatenate([block.data for block in found.cells if block.type == "line"])
         assert len(np.unique(np.sort(lines, axis=1), axis=0)) == len(lines) == 12
         assert {name: pair.tolist() for name, pair in found.field_data.items()} == names
+        assert n_boundaries_written(as_file(mesh, given), format) == len(names)
 
 
 def test_mfem_has_a_boundary_without_groups(tmp_path: Path) -> None:
