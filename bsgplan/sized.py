@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import os
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from .errors import MeshReadError
 from .io import MeshFile
 from .io.isotropy import warn_of_stretched
 from .io.size_file import sizes_from
+from .mesh import Mesh
 from .mesh.thinned import Thinned, thinned
 from .sizing import SizeField, named_size_field, size_field
 from .sizing.measure import triangles_wanted
@@ -42,30 +44,46 @@ def sizes_to_plan(
     """
     mesh, given = mesh_file.mesh, given_sizes(mesh_file, name, size_file)
     if mesh.is_planar and mesh.n_triangles >= LARGE:
-        wanted = mesh.n_triangles if given is None else triangles_wanted(mesh, *given)
+        wanted = mesh.n_triangles if given is None else given.n_triangles
         least = np.min(tris_per_block) if n_blocks is None else wanted / n_blocks
         if least * mesh.n_triangles / wanted >= LEAST:
             thin = thinned(mesh)
-            return thin_size_field(thin) if given is None else thin_named_size_field(thin, *given), thin
-    return size_field(mesh) if given is None else named_size_field(mesh, *given), None
+            if given is None:
+                return thin_size_field(thin), thin
+            return thin_named_size_field(thin, given.values, given.source), thin
+    return _on_every_triangle(mesh, given), None
 
 
 def size_of(
     mesh_file: MeshFile, name: str | None = None, size_file: str | os.PathLike[str] | None = None
 ) -> SizeField:
     """Return the size field of a mesh file on every triangle; sizes and errors are those of `given_sizes`."""
-    given = given_sizes(mesh_file, name, size_file)
-    return size_field(mesh_file.mesh) if given is None else named_size_field(mesh_file.mesh, *given)
+    return _on_every_triangle(mesh_file.mesh, given_sizes(mesh_file, name, size_file))
+
+
+def _on_every_triangle(mesh: Mesh, given: Given | None) -> SizeField:
+    return size_field(mesh) if given is None else named_size_field(mesh, given.values, given.source)
+
+
+class Given(NamedTuple):
+    """Sizes that are given, not read off the edges."""
+
+    values: Floats
+    """One length a point or a triangle, on the map where the mesh has one."""
+    source: str
+    """The array or file that they come from."""
+    n_triangles: float
+    """Triangles that they ask for."""
 
 
 def given_sizes(
     mesh_file: MeshFile, name: str | None, size_file: str | os.PathLike[str] | None
-) -> tuple[Floats, str] | None:
-    """Return the sizes of a mesh file's array of that name, or of a size file, and their source.
+) -> Given | None:
+    """Return the sizes of a mesh file's array of that name, or of a size file.
 
-    One length a point or a triangle; those of a projected mesh are true metres. None where the mesh's own
-    edges are the size. Warns where many triangles are stretched then, else where the unit of the sizes is
-    unlikely. Raises MeshReadError where there is no such array, and what `sizes_from` raises.
+    Those of a projected mesh are true metres. None where the mesh's own edges are the size. Warns where many
+    triangles are stretched then, else where the unit of the sizes is unlikely. Raises MeshReadError where
+    there is no such array, and what `sizes_from` raises.
     """
     if size_file is not None:
         source = os.fspath(size_file) + ("" if name is None else f": {name}")
@@ -75,8 +93,9 @@ def given_sizes(
     else:
         warn_of_stretched(mesh_file)
         return None
-    _warn_of_unit(mesh_file, values, source)
-    return values, source
+    given = Given(values, source, triangles_wanted(mesh_file.mesh, values, source))
+    _warn_of_unit(mesh_file, given)
+    return given
 
 
 def _array(mesh_file: MeshFile, name: str) -> Floats:
@@ -93,12 +112,11 @@ def _array(mesh_file: MeshFile, name: str) -> Floats:
     return values
 
 
-def _warn_of_unit(mesh_file: MeshFile, values: Floats, source: str) -> None:
+def _warn_of_unit(mesh_file: MeshFile, given: Given) -> None:
     """Warn where sizes ask for less than a triangle, or for a thousand times those of the mesh."""
     n_triangles = mesh_file.mesh.n_triangles
-    wanted = triangles_wanted(mesh_file.mesh, values, source)
-    if not 1 <= wanted <= UNLIKELY * n_triangles:
+    if not 1 <= given.n_triangles <= UNLIKELY * n_triangles:
         logging.getLogger("bsgplan").warning(
             "%s: the sizes %r ask for %.3g triangles where the mesh has %d; check their unit",
-            mesh_file.path, source, wanted, n_triangles,
+            mesh_file.path, given.source, given.n_triangles, n_triangles,
         )  # fmt: skip

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from math import ceil, isqrt, sqrt
 
 from ..errors import InvalidOption, NoPatternFits
@@ -55,15 +56,15 @@ def within(
     first = max(1, ceil(sqrt(n_triangles / n_blocks) * (1 - COUNT_TOLERANCE)))
     sides = [side for side in _sides(n_triangles) if side >= first] or [isqrt(int(n_triangles)) or 1]
     needs: dict[int, Need] = {}
-    least = {side: least_at(side * side) for side in sides}
+    least = cache(lambda side: least_at(side * side))
     for side in sides:
-        if least[side] <= n_blocks:
+        if least(side) <= n_blocks:
             plan = plan_at(side * side)
             needs[side] = need(plan)
             if needs[side].n_blocks <= n_blocks:
                 return plan
-    for side in sorted(set(sides) - set(needs), key=lambda side: (least[side], side)):
-        if least[side] < min((found.n_blocks for found in needs.values()), default=least[side] + 1):
+    for side in sorted(set(sides) - set(needs), key=lambda side: (least(side), side)):
+        if least(side) < min((found.n_blocks for found in needs.values()), default=least(side) + 1):
             needs[side] = need(plan_at(side * side))
     side = min(needs, key=lambda side: (needs[side].n_blocks, -side))
     raise NoPatternFits(
