@@ -6,32 +6,21 @@ Deterministic: the same seed gives the same mesh.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ..arrays import Floats
-from ..blocks.cooling import Schedule, cooled
+from ..blocks.cooling import cooled
 from ..blocks.placed import PlacedMesh
-from ..blocks.weights import TRIANGLES
-from .by_strips import Tries, with_strips
+from .by_strips import CLEANUP, Tries, with_strips
 from .cut import Cut
 from .mend import mended
 from .polish import polished
 from .restore import restored
 from .wish import Wish
 
-SCHEDULE = Schedule(
-    weights=TRIANGLES,
-    hot=0.35,
-    cold=0.03,
-    moves=2,
-    steered=9,
-    gain=0.3,
-    most_shift=0.2,
-    most_size_weight=2.0,
-    first_shift=-0.05,
-)
+SCHEDULE = replace(CLEANUP, hot=0.35, first_shift=-0.05)
 """How parts are annealed: a mesh of few defects has fewer triangles, and they follow a shift slowly."""
 
 SMALL, MOST_FOLD = 16_000, 4.0
