@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..arrays import Bools, Floats, Ints, sums_by
-from ..mesh.topology import connected_labels
+from ..mesh.components import connected_labels
 from .domain import Domain
 from .kinds import CORNER, INTERIOR, JUNCTION, SLIDING
 from .lack import POOR, lacks, qualities

@@ -10,8 +10,9 @@ import numpy as np
 
 from ..arrays import Bools, Floats, Ints
 from ..errors import InvalidMesh
+from .components import connected_labels
 from .quality import signed_areas
-from .topology import connected_labels, topology
+from .topology import topology
 
 
 def turned_in_plane(points: Floats, triangles: Ints) -> Bools:

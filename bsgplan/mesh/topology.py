@@ -10,11 +10,11 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from ..arrays import Bools, Ints, Wholes, by_row, joined, short_type
 from ..errors import InvalidMesh
+from .components import connected_labels
+from .fans import corner_fans, next_corner
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,6 +105,11 @@ class Topology:
         """Cell across each edge of each cell, (n_cells, n_corners); -1 where there is none."""
         return self._across(self.neighbours).reshape(self.cells.shape)
 
+    @property
+    def sides_across(self) -> Ints:
+        """The other side along each side of each cell, (n_cells * n_corners,); -1 at the boundary."""
+        return self._across(self.inner_sides)
+
     def _across(self, pairs: Ints) -> Ints:
         """Return what lies on the other side of each side, (n_cells * n_corners,); -1 at the boundary.
 
@@ -146,58 +151,7 @@ class Topology:
 
         Splitting each vertex into its fans removes every pinch.
         """
-        n_corners, vertex = self.cells.shape[1], self.cells.ravel()
-        is_used = self.n_cells_at > 0
-        fan = (np.cumsum(is_used) - 1)[vertex]
-        across = self._across(self.inner_sides)
-        corners = np.flatnonzero((self._n_cells_in_a_fan(across) != self.n_cells_at)[vertex])
-        if len(corners):  # of pinches
-            number = np.full(len(vertex), -1)
-            number[corners] = np.arange(len(corners))
-            links = np.column_stack([np.repeat(corners, 2), self._turned(corners, across).ravel()])
-            own = connected_labels(number[links[links[:, 1] >= 0]], len(corners))
-            first = np.unique(own, return_index=True)[1]  # a corner of each fan ..
-            is_other = np.ones(len(first), dtype=bool)
-            is_other[np.unique(vertex[corners[first]], return_index=True)[1]] = False  # .. and of a vertex
-            further = np.count_nonzero(is_used) - 1 + np.cumsum(is_other)
-            fan[corners] = np.where(is_other, further, fan[corners[first]])[own]
-        return fan.reshape(-1, n_corners)
-
-    def _n_cells_in_a_fan(self, across: Ints) -> Ints:
-        """Return the cells in one fan of each vertex, (n_points,); 0 where there is none or sides run alike.
-
-        across is the other side of each side. Turns around all vertices at once, from the first corner of an
-        open fan, from any of a closed one.
-        """
-        vertex = self.cells.ravel()
-        after = np.roll(np.arange(self.cells.size).reshape(self.cells.shape), -1, axis=1).ravel()
-        ahead = np.where(across >= 0, after[across], -1)
-        start = np.full(self.n_points, -1)
-        start[vertex] = np.arange(len(vertex))
-        open_ends = after[across < 0]
-        start[vertex[open_ends]] = open_ends
-        start[self.edges[self.inner_edges[self.runs_alike]]] = -1
-        result = np.zeros(self.n_points, dtype=np.int64)
-        turning = np.flatnonzero(start >= 0)
-        first = corner = start[turning]
-        while len(turning):
-            result[turning] += 1
-            corner = ahead[corner]
-            goes_on = np.flatnonzero((corner >= 0) & (corner != first))
-            turning, first, corner = turning.take(goes_on), first.take(goes_on), corner.take(goes_on)
-        return result
-
-    def _turned(self, corner: Ints, across: Ints) -> Ints:
-        """Return the corners of the same vertex across the two sides at each corner, (n, 2); -1 for none."""
-        n_corners, vertex = self.cells.shape[1], self.cells.ravel()
-        result = np.empty((len(corner), 2), dtype=np.int64)
-        before = corner + np.where(corner % n_corners == 0, n_corners - 1, -1)
-        for k, side in enumerate((corner, before)):
-            other = across[side]
-            is_start = vertex[other] == vertex[corner]  # else the vertex is the end of the side
-            there = np.where(is_start, other, next_corner(other, n_corners))
-            result[:, k] = np.where(other >= 0, there, -1)
-        return result
+        return corner_fans(self)
 
     @cached_property
     def n_pinches(self) -> int:
@@ -277,27 +231,9 @@ def _sorted_places(values: Wholes, n: int) -> Wholes:
     return by_row(values, place, np.empty(len(values), dtype=np.int8), n)[0]
 
 
-def connected_labels(links: Ints, n_nodes: int) -> Ints:
-    """Return the component of each node of a graph, (n_nodes,), from 0, numbered by their first nodes."""
-    graph = coo_array(
-        (np.ones(len(links), dtype=np.int8), (links[:, 0], links[:, 1])), shape=(n_nodes, n_nodes)
-    )
-    return connected_components(graph, directed=False)[1].astype(np.int64)
-
-
 def _non_manifold(edges: Ints, count: Ints) -> str:
     bad = np.flatnonzero(count > 2)
     named = ", ".join(
         f"({a}, {b}) in {n} cells" for (a, b), n in zip(edges[bad[:3]], count[bad[:3]], strict=True)
     )
     return f"{len(bad)} non-manifold edges, the first between points {named}; an edge has two cells at most"
-
-
-def next_corner(corner: Ints, n_corners: int) -> Ints:
-    """Return the corner after each in its cell, (n,); corner i of cell c is n_corners c + i.
-
-    >>> next_corner(np.array([0, 1, 2, 3]), 3).tolist()
-    [1, 2, 0, 4]
-    """
-    is_last = corner - n_corners * (corner // n_corners) == n_corners - 1
-    return corner + np.where(is_last, 1 - n_corners, 1)

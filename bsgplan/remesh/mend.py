@@ -18,8 +18,9 @@ from ..blocks.kinds import FROZEN, FROZEN_SIDE
 from ..blocks.lack import qualities
 from ..blocks.placed import PlacedMesh, grown
 from ..blocks.weights import TRIANGLES
+from ..mesh.components import connected_labels
 from ..mesh.edges import edge_keys
-from ..mesh.topology import connected_labels, topology
+from ..mesh.topology import topology
 
 TURNS = ((3, 0.6), (4, 0.2), (4, 0.05), (6, 0.2))
 """Rings of triangles around a poor one that are annealed, and the weight of irregular vertices there."""

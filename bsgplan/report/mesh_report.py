@@ -12,8 +12,9 @@ import numpy as np
 
 from ..arrays import Floats
 from ..mesh import Mesh, quality
+from ..mesh.components import connected_labels
 from ..mesh.irregularity import fitted_boundary_irregularity, genus
-from ..mesh.topology import Topology, connected_labels
+from ..mesh.topology import Topology
 from .quad_report import quad_rows
 from .rows import Row, plain_irregularity, shown_irregularity, shown_share
 from .table import Column, Table

@@ -10,8 +10,8 @@ from scipy.spatial import Delaunay
 
 from bsgplan.mesh import Mesh, clean
 from bsgplan.mesh.collapse import LEAST_QUALITY, LONGEST
+from bsgplan.mesh.components import connected_labels
 from bsgplan.mesh.thinned import Thinned, thinned
-from bsgplan.mesh.topology import connected_labels
 from tests.predicates import assert_identity_holds, assert_is_mesh
 from tests.strategies import jittered, meshes
 
