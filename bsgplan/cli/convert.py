@@ -72,9 +72,9 @@ def _concerns_the_plan(note: str, mesh_file: MeshFile) -> bool:
 def _contents(mesh_file: MeshFile, n_boundaries: int) -> str:
     mesh = mesh_file.mesh
     counts = (
-        counted(mesh.n_points, "point"),
-        counted(mesh.n_triangles, "triangle"),
-        counted(len(mesh_file.quads), "quad"),
-        counted(n_boundaries, "boundary", "boundaries"),
+        (mesh.n_points, "point", "points"),
+        (mesh.n_triangles, "triangle", "triangles"),
+        (len(mesh_file.quads), "quad", "quads"),
+        (n_boundaries, "boundary", "boundaries"),
     )
-    return ", ".join(told for told in counts if not told.startswith("0 "))
+    return ", ".join(counted(n, one, many) for n, one, many in counts if n)

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import time
-import tracemalloc
-
 import meshio
 import numpy as np
 import pytest
+from costs import seconds, with_peak
 
 from bsgplan.io import write
 from bsgplan.io.file import MeshFile
@@ -55,35 +53,15 @@ def large(tmp_path_factory):
     return folder
 
 
-def seconds(read) -> float:
-    """Return the least CPU time of three runs."""
-    costs = []
-    for _ in range(3):
-        start = time.process_time()
-        read()
-        costs.append(time.process_time() - start)
-    return min(costs)
-
-
 @pytest.mark.parametrize("name", FILES)
 def test_a_triangle_costs_less_than_in_meshio(large, name):
     ours = seconds(lambda: BY_NAME[name].read(large / FILES[name]))
     assert ours < seconds(lambda: meshio.gmsh.read(large / "large.msh"))
 
 
-def read_with_peak(name, path):
-    """Return what a reader finds, and the bytes at its peak."""
-    tracemalloc.start()
-    try:
-        raw = BY_NAME[name].read(path)
-        return raw, tracemalloc.get_traced_memory()[1]
-    finally:
-        tracemalloc.stop()
-
-
 @pytest.mark.parametrize("name", FILES)
 def test_the_memory_is_bounded(large, name):
-    raw, peak = read_with_peak(name, large / FILES[name])
+    raw, peak = with_peak(lambda: BY_NAME[name].read(large / FILES[name]))
     assert len(raw.triangles) == 2 * SIDE * SIDE
     assert peak < MOST_BYTES * len(raw.triangles) + BUFFERS
 
@@ -94,6 +72,6 @@ def test_text_is_read_a_buffer_at_a_time(large, name, tmp_path):
     for path in large.glob(FILES[name].replace(".ele", ".*e*")):
         (tmp_path / path.name).write_bytes(path.read_bytes().replace(b"\n", b" " * 1000 + b"\n"))
     padded = tmp_path / FILES[name]
-    raw, peak = read_with_peak(name, padded)
+    raw, peak = with_peak(lambda: BY_NAME[name].read(padded))
     assert np.array_equal(raw.triangles, BY_NAME[name].read(large / FILES[name]).triangles)
     assert peak < MOST_BYTES * len(raw.triangles) + BUFFERS < padded.stat().st_size

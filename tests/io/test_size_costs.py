@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import time
-import tracemalloc
 from collections.abc import Callable
 from pathlib import Path
 
 import meshio
 import numpy as np
 import pytest
+from costs import seconds, with_peak
 
 from bsgplan.io import write
 from bsgplan.io.file import MeshFile
@@ -66,25 +65,6 @@ READERS: dict[str, Callable[[Path], list[np.ndarray]]] = {
     "large.sol": lambda path: [read_sol(path).values],
     "grid.msh": lambda path: [read_grid(path, is_lonlat=False).sizes],
 }
-
-
-def seconds(read: Callable[[], object]) -> float:
-    """Return the least CPU time of three runs."""
-    costs = []
-    for _ in range(3):
-        start = time.process_time()
-        read()
-        costs.append(time.process_time() - start)
-    return min(costs)
-
-
-def with_peak(read: Callable[[], object]) -> tuple[object, int]:
-    """Return what a call returns, and the bytes at its peak."""
-    tracemalloc.start()
-    try:
-        return read(), tracemalloc.get_traced_memory()[1]
-    finally:
-        tracemalloc.stop()
 
 
 @pytest.mark.parametrize("name", ["large.sol", "grid.msh"])  # a view has twelve decimals a triangle
